@@ -69,7 +69,8 @@ millimetre that it slid, and the largest factor. Our choice: what lacks much sli
 of 4 mm brings it to the pad's edge."""
 
 MOST_RISE_MM = 2.0
-"""Most that the fingers rise after a rock [mm]. Our choice: they stay below the lift's usual 40."""
+"""Most that the fingers rise after a rock, never above the lift [mm]. Our choice: twice what slides
+in a short one."""
 
 LEAST_SLID_MM, LEAST_SPREADS = 0.2, 1.5
 """Way of the indentation in a rock from which it has slid [mm], and the same in standard deviations
@@ -152,8 +153,9 @@ def lift_off(
         _go(rig, clear, settings.lift_off_speed_m_s, settings.acceleration_m_s2)
         _hang(rig, hold)
         rig.clock.sleep(still_s)
+        top_m = float(start.position_m[2]) + settings.lift_mm / 1000
         for part, way in ROCKS if is_shaken else ():
-            _rock(rig, hold, settings, part, way * side_m)
+            _rock(rig, hold, settings, part, way * side_m, top_m)
         _raise(rig, hold, SPARE)
         return LiftOff(floor_n=hold.memory.floor_n)
 
@@ -171,12 +173,18 @@ def _reserve(hold: ReflexHold) -> float:
 
 
 def _rock(
-    rig: Rig, hold: ReflexHold, settings: VerifyConfig, part: float, side_m: NDArray[np.float64]
+    rig: Rig,
+    hold: ReflexHold,
+    settings: VerifyConfig,
+    part: float,
+    side_m: NDArray[np.float64],
+    top_m: float,
 ) -> None:
     """Rock with a part of the shake's acceleration, there and back, until nothing slips in it.
 
     Where the object does, the reflex raises the force; after the rock more is added for the way
-    that it slid, and the fingers rise by as much: on its support it would show nothing more.
+    that it slid, and the fingers rise by as much, at most to ``top_m`` in the base frame: on its
+    support it would show nothing more.
     """
     here = rig.arm.pose()
     acceleration_m_s2 = part * settings.shake_acceleration_m_s2
@@ -195,7 +203,8 @@ def _rock(
         if hold.slipped_s <= began_s and slid_mm < least_mm:
             return
         _raise(rig, hold, min(MOST_ROCKED, ROCKED + SLID_PER_MM * slid_mm))
-        here = shifted(here, np.array([0.0, 0.0, min(slid_mm, MOST_RISE_MM) / 1000]))
+        rise_m = max(0.0, min(slid_mm / 1000, MOST_RISE_MM / 1000, top_m - here.position_m[2]))
+        here = shifted(here, np.array([0.0, 0.0, rise_m]))
         _go(rig, here, settings.lift_off_speed_m_s, settings.acceleration_m_s2)
         _hang(rig, hold)  # elsewhere on the pad
 

@@ -14,6 +14,7 @@ from tacgrasp.config.schema import RunConfig
 from tacgrasp.config.terms import contract_of
 from tacgrasp.rig.factory import make_executor
 from tacgrasp.runtime.lift_off import (
+    MOST_RISE_MM,
     MOST_ROCKED,
     ROCKED,
     ROCKED_TIMES,
@@ -119,10 +120,14 @@ def test_after_a_rock_the_force_is_raised_by_the_way_that_it_slid(slides_mm, is_
     rig = build("fruit", SEED, sensor_name="taxels")
     rig.gripper.grip(0.2)
     hold = RockedHold(slides_mm, is_told=is_told)
-    _rock(rig, hold, load("fruit")[0].verify, 1.0, 0.1 * SIDE_M)
+    before_m = rig.arm.pose().position_m
+    _rock(rig, hold, load("fruit")[0].verify, 1.0, 0.1 * SIDE_M, before_m[2] + 0.004)
     assert hold.asked_n == pytest.approx([0.2 * factor for factor in factors])
     assert hold.num_hung == len(factors)  # its place is another one after each slide
     assert hold.num_rests >= 1
+    slid_mm = sum(min(slid_mm, MOST_RISE_MM) for slid_mm in slides_mm[: len(factors)])
+    risen_m = rig.arm.pose().position_m - before_m  # up to the top
+    assert risen_m == pytest.approx([0.0, 0.0, min(slid_mm / 1000, 0.004)], abs=1e-9)
 
 
 def test_a_grip_that_may_not_grow_is_reported_and_nothing_falls():
