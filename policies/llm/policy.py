@@ -60,7 +60,9 @@ ABSTAIN_BELOW = 0.3
 
 READABLE = 0.97
 """Probability that anything touches, as the heads read it, from which they read a contact that is
-felt by test. Our choice: what they doubt altogether they place anywhere on the pad."""
+felt by test. Source: 309 observations of fruit with taxels; nine in ten of their places are within
+0.8 mm above 0.995, within 1.2 mm from 0.97 on, 2.9 mm from 0.9 on and 7.8 mm below 0.5. Measured
+directly it is 0.3 mm throughout."""
 
 _FORCE = NUMBERS.index("force_n")
 
