@@ -73,12 +73,21 @@ def decision_of(text: str, *, confidence: float = 1.0) -> Decision:
     )
 
 
+def is_unicode(text: str) -> bool:
+    """Whether a text has no half of a surrogate pair, as bytes that were read wrongly leave."""
+    try:
+        text.encode()
+    except UnicodeEncodeError:
+        return False
+    return True
+
+
 def checked(reply: object) -> Decision:
     """A policy's reply, once it is a Decision that can be carried out.
 
     Raises:
-        PolicyError: It is none, names an action that no robot has, or holds a number that is not
-            finite.
+        PolicyError: It is none, names an action that no robot has, holds a number that is not
+            finite, or a text that no record can hold.
     """
     if not isinstance(reply, Decision):
         raise PolicyError(f"the policy replied {reply!r:.80}; expected a Decision")
@@ -92,6 +101,9 @@ def checked(reply: object) -> Decision:
             "a decision needs a text, and True or False for success; got "
             f"{reply.text!r:.80} and {reply.success!r:.80}"
         )
+    for name, text in (("text", reply.text), ("reason", reply.reason)):
+        if not is_unicode(text):
+            raise PolicyError(f"the policy's {name} is no Unicode, got {text!r:.80}")
     for name, number in (("confidence", reply.confidence), *reply.stage_ms.items()):
         if not math.isfinite(number):
             raise PolicyError(f"the policy's {name} is {number}; expected a finite number")

@@ -27,6 +27,11 @@ def test_a_whole_decision_passes_as_it_is(good):
         (replace(GOOD, action="increase_force"), "unknown action"),
         (replace(GOOD, text=None), "needs a text"),
         (replace(GOOD, success="yes"), "True or False"),
+        (
+            replace(GOOD, text="Increase \udcff force."),
+            r"text is no Unicode, got 'Increase \\udcff",
+        ),
+        (replace(GOOD, reason="\ud800"), "reason is no Unicode"),
         (replace(GOOD, confidence=math.nan), "confidence is nan"),
         (replace(GOOD, stage_ms={"decide": math.inf}), "decide is inf"),
     ],
