@@ -24,10 +24,8 @@ LEAST_FELT_N = 0.2
 as large as what is felt; at 0.3 a weak gripper under a limit of 1.2 N never learned it, and stopped
 short of its band."""
 
-TRUSTED_N, TRUSTED_SPREAD = 0.5, 1.6
-"""Felt force from which a ratio above the rig's own bound is believed [N], and the largest ratio of
-its upper end to it. Our choice, likewise: drift beside a contact that the pad's edge cuts was felt
-as 0.7 N, six times what was commanded."""
+TRUSTED_N = 0.5
+"""Felt force from which a ratio above the rig's own bound is believed [N]. Our choice, likewise."""
 
 GRIP_SPREAD = 0.06
 """Standard deviation of ln(felt over commanded) from grip to grip. Source: simulated strawberries
@@ -81,13 +79,12 @@ class GainEstimator:
         """
         if felt.value < LEAST_FELT_N or commanded_n <= 0:
             return
-        spread = felt.high / felt.value
-        is_clear = felt.value >= TRUSTED_N and spread <= TRUSTED_SPREAD
-        most = math.inf if is_clear else self._max_gain
+        most = math.inf if felt.value >= TRUSTED_N else self._max_gain
         low, value, high = (
             min(most, force_n / commanded_n) for force_n in (felt.low, felt.value, felt.high)
         )
         self._grips[-1].append(math.log(value))
+        spread = felt.high / felt.value
         if spread <= 1.01 * self._spread:
             self._bound, self._spread = Interval(value=value, low=low, high=high), spread
 

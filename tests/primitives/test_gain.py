@@ -6,14 +6,7 @@ import numpy as np
 import pytest
 
 from primitives.force_guard import GuardedGripper
-from primitives.gain import (
-    GRIP_SPREAD,
-    LEAST_FELT_N,
-    NINE_OF_TEN,
-    TRUSTED_N,
-    TRUSTED_SPREAD,
-    GainEstimator,
-)
+from primitives.gain import GRIP_SPREAD, LEAST_FELT_N, NINE_OF_TEN, GainEstimator
 from primitives.sense import Interval
 from tests.fakes.hidden_gain import HiddenGainGripper
 
@@ -67,22 +60,6 @@ def test_the_bound_is_that_of_the_clearest_reading_however_many_grips_there_are(
     gains.feel(felt(3.0, 1.6), 1.0)  # cut by the pad's edge
     assert gains.bound.high == pytest.approx(1.0 * SPREAD)
     assert gains.estimate.num_grips == 5
-
-
-@pytest.mark.parametrize(
-    ("force_n", "spread", "high"),
-    [
-        (0.9 * TRUSTED_N, SPREAD, 2.0),
-        (1.1 * TRUSTED_N, SPREAD, 1.1 * TRUSTED_N * SPREAD / 0.1),
-        (1.1 * TRUSTED_N, 1.01 * TRUSTED_SPREAD, 2.0),
-    ],
-)
-def test_a_ratio_above_what_the_rig_states_is_believed_of_a_clear_force_alone(
-    force_n, spread, high
-):
-    gains = GainEstimator(2.0)
-    gains.feel(felt(force_n, spread), 0.1)
-    assert gains.bound.high == pytest.approx(high)
 
 
 def test_a_guard_counts_commands_as_grips():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -10,7 +11,7 @@ from typing import cast
 import pytest
 
 from cltp.tactile.measure import contact_state
-from policies import Decision, Observation
+from policies import Decision, Observation, observation
 from primitives import LimitError, Primitive
 from primitives.contract import Contract
 from sim.grasp.rig import build
@@ -33,6 +34,13 @@ from tests.fakes.loop_fakes import (
     play,
     touch,
 )
+
+
+@pytest.fixture(autouse=True)
+def _any_force(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The fake sensor shows the same contact under any command."""
+    monkeypatch.setattr(observation, "POSSIBLE_RATIO", math.inf)
+
 
 FELT_N = contact_state(touch()).force_n
 FIRM = "It is too firm. Decrease the gripping force."

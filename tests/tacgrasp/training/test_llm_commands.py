@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 import torch
 
+import policies.llm.policy
 from cltp.checkpoints.manifest import write_manifest
 from cltp.data.dataset import ContactDataset
 from cltp.llm.generation import Reply, Talker
@@ -35,6 +36,12 @@ from tests.paths import ROOT
 pytestmark = pytest.mark.usefixtures("threads_as_before")
 
 GOOD = "smooth sphere, deep 0.70 mm. Goal 0.95 - 1.90 N. Action: <decrease_force>. It is too firm."
+
+
+@pytest.fixture(autouse=True)
+def readable(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let weights that have learned next to nothing decide, not the direct measurement."""
+    monkeypatch.setattr(policies.llm.policy, "READABLE", 0.0)
 
 
 @pytest.fixture
