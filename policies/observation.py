@@ -5,12 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from cltp.tactile.cloud import TactileCloud
+from cltp.tactile.force_scale import POSSIBLE_RATIO
 from cltp.tactile.shear.field import ShearField
 from primitives.sense import Interval
-
-POSSIBLE_RATIO = 3.0
-"""Largest ratio of a felt force to the commanded one that a gripper makes, as in
-``cltp.encoder.reader``. What is felt beyond that under a light grip is the gel's drift."""
 
 
 def is_impossible(felt_n: float, commanded_n: float | None) -> bool:

@@ -24,6 +24,7 @@ from cltp.errors import TouchError
 from cltp.tactile.cells import height_grid, sums_around
 from cltp.tactile.cloud import TactileCloud
 from cltp.tactile.encoder_input import encoder_input
+from cltp.tactile.force_scale import POSSIBLE_RATIO
 from cltp.tactile.measure import contact_state
 from cltp.tactile.noise_levels import WIDE
 from cltp.tactile.point_layout import GRID
@@ -60,11 +61,6 @@ class Flag(StrEnum):
 
 UNSURE_MM: Mapping[str, float] = {"depth_mm": 0.6, "x_mm": 10.0, "y_mm": 10.0}
 """Width of an interval that tells nothing: two words for depths, half of the pad."""
-
-POSSIBLE_RATIO = 3.0
-"""Largest ratio of a felt force to the commanded one, either way. Our choice: grippers are off by
-up to 2 (``sim.grasp.rig``); far beyond that the gel, its scale or the gripper is another one."""
-
 
 LEARNED_SIDE_MM = 4.3
 """Shortest side of a pad that training has: 0.45 of that of a DIGIT (``cltp.data.windows``)."""

@@ -17,6 +17,11 @@ from cltp.errors import TouchError
 UNCALIBRATED_SOURCE = "uncalibrated"
 """Source of the scale of a unit without a calibration, in episodes too."""
 
+POSSIBLE_RATIO = 3.0
+"""Largest ratio of a felt force to the commanded one, either way. Our choice: grippers are off by
+up to 2 (``sim.grasp.rig``); far beyond that the gel, its scale or the gripper is another one, or
+what is felt is the gel's drift."""
+
 MAX_FACTOR = 10.0
 """Largest factor, and one over the smallest: beyond it the sensor is not of its model."""
 

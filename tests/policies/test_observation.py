@@ -8,10 +8,11 @@ import numpy as np
 import pytest
 
 from cltp.tactile.cloud import Stamp, cloud_from_heights
+from cltp.tactile.force_scale import POSSIBLE_RATIO
 from cltp.tactile.measure import contact_state
 from cltp.tactile.sensors import SENSORS
 from policies import Observation
-from policies.observation import POSSIBLE_RATIO, is_impossible
+from policies.observation import is_impossible
 from policies.rules import RulesPolicy
 from primitives import Primitive
 from primitives.devices import GripperState

@@ -202,21 +202,24 @@ def test_the_felt_force_that_a_correction_leads_to_is_never_above_the_limit(
         assert correction.force_n < commanded_n
 
 
-def test_while_the_object_stands_steps_up_stay_small_and_wait_for_what_is_felt():
+def steps_up(count, every_s, **reading):
+    """Times [s] and factors of the steps up of readings of a slip, so far apart."""
     memory, commanded_n, steps = ReflexMemory(), 0.1, []
     terms = ForceTerms(force_n=Band(low=0.05, high=1.0), limit_n=100.0)
-    for k in range(12):
-        t_s = 10.0 + k * 0.02
-        slipping = replace(
-            CALM, t_s=t_s, captured_s=t_s, slip=3.0, commanded_n=commanded_n, standing=True
-        )
+    for k in range(count):
+        t_s = 10.0 + k * every_s
+        slipping = replace(CALM, t_s=t_s, captured_s=t_s, commanded_n=commanded_n, **reading)
         correction, memory = act(slipping, memory, terms)
         if correction.act is Act.RAISE:
             steps.append((t_s, correction.force_n / commanded_n))
         commanded_n = correction.force_n
-    times_s, factors = zip(*steps, strict=True)
-    assert factors == pytest.approx([SMALL_FACTOR] * len(steps))
-    assert len(steps) > 2
+    return zip(*steps, strict=True)
+
+
+def test_while_the_object_stands_steps_up_stay_small_and_wait_for_what_is_felt():
+    times_s, factors = steps_up(12, 0.02, slip=3.0, standing=True)
+    assert factors == pytest.approx([SMALL_FACTOR] * len(factors))
+    assert len(factors) > 2
     assert min(b - a for a, b in pairwise(times_s)) == pytest.approx(SMALL_EVERY_S)
 
 
@@ -230,21 +233,10 @@ def test_while_the_object_stands_steps_up_stay_small_and_wait_for_what_is_felt()
 def test_after_a_lift_off_steps_do_not_grow_and_only_a_sure_slip_has_larger_ones(
     slip, factor, every_s
 ):
-    memory, commanded_n, steps = ReflexMemory(), 0.1, []
-    terms = ForceTerms(force_n=Band(low=0.05, high=1.0), limit_n=100.0)
-    for k in range(20):
-        t_s = 10.0 + 0.01 * k
-        slipping = replace(
-            CALM, t_s=t_s, captured_s=t_s, slip=slip, commanded_n=commanded_n, is_found=True
-        )
-        correction, memory = act(slipping, memory, terms)
-        if correction.act is Act.RAISE:
-            steps.append((t_s, correction.force_n / commanded_n))
-        commanded_n = correction.force_n
-    times_s, factors = zip(*steps, strict=True)
-    assert factors == pytest.approx([factor] * len(steps))
-    assert [b - a for a, b in pairwise(times_s)] == pytest.approx([every_s] * (len(steps) - 1))
-    assert len(steps) > 3
+    times_s, factors = steps_up(20, 0.01, slip=slip, is_found=True)
+    assert factors == pytest.approx([factor] * len(factors))
+    assert [b - a for a, b in pairwise(times_s)] == pytest.approx([every_s] * (len(factors) - 1))
+    assert len(factors) > 3
 
 
 def test_what_the_next_motion_needs_is_asked_for_once_and_not_lowered_again():
