@@ -41,11 +41,19 @@ class Aim:
         self._needs = ""
         self._object: TouchedObject | None = None
 
-    def at(self, contract: Contract, observation: Observation) -> tuple[Contract, str]:
+    def at(
+        self, contract: Contract, observation: Observation, reach_n: float | None = None
+    ) -> tuple[Contract, str]:
         """The contract of a step, and what was felt of the object in words.
 
         The words are empty, and the contract as it is, where it names no kind of object, or nothing
         is felt.
+
+        Args:
+            contract: The contract.
+            observation: What is felt.
+            reach_n: Largest felt force that commands within the limit surely make [N]; None where
+                that is not known.
         """
         if contract.needs not in NEEDS:
             return contract, ""
@@ -55,13 +63,14 @@ class Aim:
         need = self._object.feel(observation, is_whole=not state.cut)
         if need is None:
             return contract, ""
-        return replace(contract, force_n=needed(contract, need)), need.text
+        return replace(contract, force_n=needed(contract, need, reach_n)), need.text
 
 
-def needed(contract: Contract, need: FeltNeed) -> Band:
+def needed(contract: Contract, need: FeltNeed, reach_n: float | None = None) -> Band:
     """The part of the contract's force band that an object needs [N].
 
-    Where all of the band lies below or above what is needed, its nearest end.
+    Where all of the band lies below or above what is needed, its nearest end. Where the limit lets
+    no command reach so far, less, but no less than what surely holds.
 
     Raises:
         LimitError: The contract is refused.
@@ -69,6 +78,8 @@ def needed(contract: Contract, need: FeltNeed) -> Band:
     band, lean = contract.terms.force_n, contract.lean
     middle = contract.scale * need.least_n ** (1 - lean) * need.most_n**lean
     middle = min(middle, max(need.least_n, need.most_n) / TARGET_FACTOR)
+    if reach_n is not None:
+        middle = min(middle, max(need.least_n, reach_n / TARGET_FACTOR))
     middle = min(
         max(middle, band.low * math.sqrt(TARGET_FACTOR)), band.high / math.sqrt(TARGET_FACTOR)
     )

@@ -9,7 +9,8 @@ correction of the gripper's force, with its reason, and the next memory.
   small, and each waits until the one before is felt, so that the grip ends just above what slips.
 * Once that has found the force that holds (``is_found``), more than small steps need a sure slip.
 * What the next motion needs more than the weight (``ahead_n``) is asked for before it begins.
-* A felt force above the limit lowers it at once, whatever a slip asks for.
+* A felt force near the limit, in the newest frame alone too, lowers it at once, whatever a slip
+  asks for: no command that is sent makes one.
 * A felt force above the band lowers it, but not below what a slip has asked for.
 * Nothing is ever asked for above the limit of the contract. Nobody can talk the reflex out of it:
   it reads no words.
@@ -68,10 +69,11 @@ CLEARLY_ABOVE = 1.15
 LOWER_EVERY_S = 0.3
 """Least time between two steps down [s]. Our choice."""
 
-RELIEVED, LEAST_RELIEF = 0.95, 0.6
-"""Felt force over the limit that a force above the limit is lowered to, and the smallest factor of
-one such step. Our choice: a gripper's gain may double, which two steps undo, and one frame that is
-wrong drops nothing that was held with a margin."""
+NEAR_LIMIT, RELIEVED, LEAST_RELIEF = 0.85, 0.75, 0.55
+"""Felt force over the limit from which a force counts as near the limit, what it is lowered to, and
+the smallest factor of one such step. Our choice: a frame is off by a tenth, and feels too little of
+a force that has doubled; a gripper's gain that becomes the largest that its rig states is undone in
+one step; one frame that is wrong drops nothing that was held with a margin."""
 
 IMPOSSIBLE = 3.0
 """Factor beyond the largest force that the command can make from which a reading is none. Our
@@ -104,7 +106,8 @@ class ReflexReading:
     Attributes:
         t_s: Now, on a monotonic clock [s].
         captured_s: When the newest frame was captured, same clock [s]; None: there is none.
-        felt_n: Force felt in it [N]; None where that is not known.
+        felt_n: Force felt in it and some frames before [N]; None where that is not known.
+        newest_n: Force felt in it alone [N]; None likewise.
         slip: Log odds of a slip over the unit's threshold: above 0 is a slip; None where the
             sensor can't tell (it measures no shear, or nothing is touched).
         commanded_n: Force that the gripper was last commanded [N].
@@ -120,9 +123,21 @@ class ReflexReading:
     slip: float | None
     commanded_n: float
     most_felt_n: float
+    newest_n: float | None = None
     standing: bool = False
     is_found: bool = False
     ahead_n: float = 0.0
+
+    @property
+    def may_feel_n(self) -> float:
+        """The larger of the felt forces [N], without an impossible one of the newest frame alone.
+
+        0 where none is known.
+        """
+        newest_n = self.newest_n or 0.0
+        if not newest_n <= IMPOSSIBLE * self.most_felt_n:
+            newest_n = 0.0
+        return max(self.felt_n or 0.0, newest_n)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -174,8 +189,8 @@ def correct(
     if problem:
         return _blind(reading, problem, memory)
     memory = replace(memory, blind_s=None)
-    if reading.felt_n is not None and reading.felt_n > terms.limit_n:
-        return _relieve(reading, reading.felt_n, terms, memory)
+    if reading.may_feel_n > NEAR_LIMIT * terms.limit_n:
+        return _relieve(reading, reading.may_feel_n, terms, memory)
     if reading.slip is not None and reading.slip > 0:
         return _raise(reading, terms, memory)
     if reading.ahead_n > reading.commanded_n:
@@ -221,10 +236,10 @@ def _relieve(
 ) -> tuple[Correction, ReflexMemory]:
     since_s = reading.t_s - max(memory.lowered_s, memory.raised_s)
     if since_s < RESPONSE_S - _ROUNDING_S:
-        return _hold(reading, "above the limit, and the gripper is still answering"), memory
+        return _hold(reading, "near the limit, and the gripper is still answering"), memory
     force_n = reading.commanded_n * max(LEAST_RELIEF, RELIEVED * terms.limit_n / felt_n)
     memory = replace(memory, lowered_s=reading.t_s, floor_n=min(memory.floor_n, force_n))
-    reason = f"{felt_n:.2f} N felt, above the limit of {terms.limit_n:.2f} N"
+    reason = f"{felt_n:.2f} N felt, near the limit of {terms.limit_n:.2f} N"
     return Correction(act=Act.LOWER, reason=reason, force_n=force_n), memory
 
 
@@ -259,9 +274,10 @@ def _prepare(
 
 def _within_limit(reading: ReflexReading, terms: ForceTerms, force_n: float) -> float:
     """A command that the felt force says to keep the limit [N]."""
-    if reading.felt_n is None or reading.felt_n <= 0:
+    if reading.may_feel_n <= 0:
         return force_n
-    return min(force_n, reading.commanded_n * terms.limit_n / reading.felt_n)
+    most_n = RELIEVED * terms.limit_n
+    return min(force_n, reading.commanded_n * most_n / reading.may_feel_n)
 
 
 def _lower(

@@ -338,6 +338,16 @@ class Executor:
         """Largest felt force that a command [N] can make, as far as is known [N]."""
         return force_n * self._gripper.limit_n / self._gripper.most_n
 
+    @property
+    def reach_n(self) -> float | None:
+        """Largest felt force that the limit lets a command make [N]; None before any was felt."""
+        gain = self._gripper.gain
+        return None if gain is None else gain.value * self._gripper.most_n
+
+    def feel_growth(self, felt_n: float) -> None:
+        """A force [N] is felt under a command that has settled (a reflex, in any frame)."""
+        self._gripper.feel_growth(felt_n)
+
     def correct_force(self, force_n: float) -> GripperState:
         """Change the force of a closed grip between two primitives, within all limits (a reflex).
 
@@ -476,6 +486,8 @@ class Executor:
         """
         top_n = min(clamp_force(self._first_force_n, self._limits).value, self._gripper.most_n)
         while not (in_contact := sense.in_contact()) or not self._is_readable(sense):
+            if in_contact:
+                self._stiffness.feel(self._force_n, width_m, None)
             if self._force_n >= top_n or width_m < CLOSED_WIDTH_M:
                 return in_contact
             step_n = max(self._approach_step_n, (APPROACH_FACTOR - 1) * self._force_n)

@@ -1,9 +1,9 @@
 """The hard limit of a contract, kept where a command to the gripper is written.
 
 A contract speaks of felt newtons, a gripper is sent commanded ones. The ratio between them is
-hidden until something is felt; from then on it is known within an interval (``primitives.gain``). A
-command is sent only if it, times the upper end of that interval, stays within the limit. Policy,
-jog and replay all command through the same ``GuardedGripper``.
+hidden until something is felt; from then on it is known within bounds (``primitives.gain``). A
+command is sent only if it, times the largest ratio within them, stays within the limit. Policy, jog
+and replay all command through the same ``GuardedGripper``.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ class GuardedGripper:
                 f"{max_gain}"
             )
         self._gripper = gripper
-        self._limit_n, self._max_gain = limit_n, max_gain
+        self._limit_n = limit_n
         self._gains = GainEstimator(max_gain)
         self.open_by, self.stop = gripper.open_by, gripper.stop  # passed through
         self.disconnect = gripper.disconnect
@@ -61,7 +61,7 @@ class GuardedGripper:
     @property
     def most_n(self) -> float:
         """Largest command that is sent [N]."""
-        return self._limit_n / (self._max_gain if self.gain is None else self.gain.high)
+        return self._limit_n / self._gains.most
 
     def keep_to(self, limit_n: float) -> None:
         """Set another limit of felt force [N]; the executor alone does so, from its contract."""
@@ -72,6 +72,12 @@ class GuardedGripper:
         state = self._gripper.state()
         if felt is not None and state.closed:
             self._gains.feel(felt, state.force_n)
+
+    def feel_growth(self, felt_n: float) -> None:
+        """Widen the ratio's bounds for a force [N] that clearly grew without a command."""
+        state = self._gripper.state()
+        if state.closed:
+            self._gains.rise(felt_n, state.force_n)
 
     def state(self) -> GripperState:
         """State of the gripper."""

@@ -6,7 +6,9 @@ It is hidden until something is felt. Two things are wanted of it, and both are 
   all readings of one sensor and body share does not. The estimate is therefore relative to the
   sensor's calibrated force, whose own residual belongs beside it.
 * a bound on the true ratio, for the hard limit: that of the clearest reading alone. It grows no
-  narrower with more grips, since what readings share could lie at its end.
+  narrower with more grips, since what readings share could lie at its end. A sensor that has lost
+  a part of its depths feels too little in every grip: the bound allows for that too, as far as the
+  rig states that its gripper can press.
 
 Not here: keeping the limit (``primitives.force_guard``), the sensor's calibration
 (``cltp.sensing.force_calibration``).
@@ -26,6 +28,18 @@ short of its band."""
 
 TRUSTED_N = 0.5
 """Felt force from which a ratio above the rig's own bound is believed [N]. Our choice, likewise."""
+
+KEPT = 0.8
+"""Part of a ratio of ``TRUSTED_N`` that an equally clear one may have and take its place. Our
+choice: three times ``GRIP_SPREAD``."""
+
+LOST = 2.2
+"""True force over the felt one of a sensor that may have lost sensitivity. Our choice: of two
+fifths of its depths, since the felt force goes as the 1.5th power of them: 0.6^-1.5 = 2.15."""
+
+ROSE = 1.3
+"""Factor above the bound's value from which a force in a single frame counts as a ratio that has
+risen. Our choice: above the noise of a frame of a clear contact."""
 
 GRIP_SPREAD = 0.06
 """Standard deviation of ln(felt over commanded) from grip to grip. Source: simulated strawberries
@@ -65,6 +79,7 @@ class GainEstimator:
         self._grips: list[list[float]] = [[]]  # ln(felt over commanded) of each reading
         self._bound: Interval | None = None
         self._spread = math.inf  # upper bound over value of the felt force behind it
+        self._trusted = 0.0  # highest ratio as clear as that, of ``TRUSTED_N`` at least
 
     def new_grip(self) -> None:
         """A command was sent: what is felt from now on is another grip."""
@@ -74,8 +89,10 @@ class GainEstimator:
     def feel(self, felt: Interval, commanded_n: float) -> None:
         """Learn from the force that is felt under a command [N].
 
-        For the bound the narrowest interval is kept, the later one of two: the ratio belongs to the
-        gripper, and a contact on the edge of the pad tells less than one in the middle.
+        For the bound the narrowest interval is kept, since a contact on the edge of the pad tells
+        less than one in the middle; the later one of two, since the ratio belongs to the gripper.
+        One of at least ``TRUSTED_N`` gives way to no much lower one (``KEPT``): what is felt of a
+        contact that leaves the pad falls.
         """
         if felt.value < LEAST_FELT_N or commanded_n <= 0:
             return
@@ -85,8 +102,30 @@ class GainEstimator:
         )
         self._grips[-1].append(math.log(value))
         spread = felt.high / felt.value
-        if spread <= 1.01 * self._spread:
+        is_clearer, is_as_clear = spread < 0.99 * self._spread, spread <= 1.01 * self._spread
+        if is_clearer or (is_as_clear and value >= KEPT * self._trusted):
+            before = 0.0 if is_clearer else self._trusted
+            self._trusted = max(before, value if felt.value >= TRUSTED_N else 0.0)
             self._bound, self._spread = Interval(value=value, low=low, high=high), spread
+
+    def rise(self, felt_n: float, commanded_n: float) -> None:
+        """Widen the bound for a force [N] that clearly grew under one command [N], in any frame."""
+        if self._bound is None or commanded_n <= 0 or felt_n < LEAST_FELT_N:
+            return
+        most = math.inf if felt_n >= TRUSTED_N else self._max_gain
+        factor = min(most, felt_n / commanded_n) / self._bound.value
+        if factor > ROSE:
+            old = self._bound
+            self._bound = Interval(
+                value=factor * old.value, low=factor * old.low, high=factor * old.high
+            )
+
+    @property
+    def most(self) -> float:
+        """Largest true ratio that the hard limit reckons with."""
+        if self._bound is None:
+            return self._max_gain
+        return max(self._bound.high, min(self._max_gain, LOST * self._bound.value))
 
     @property
     def bound(self) -> Interval | None:

@@ -20,11 +20,10 @@ from numpy.typing import NDArray
 from cltp.tactile.shear.held_indentation import MEAN_FRAMES
 from primitives.contract import Contract
 from primitives.devices import Pose
-from primitives.sense import Interval
 from tacgrasp.config.schema import VerifyConfig
 from tacgrasp.rig.protocols import Rig
 from tacgrasp.runtime.reflex_hold import QUIET_FRAMES, ReflexHold
-from tacgrasp.runtime.steps import Steps
+from tacgrasp.runtime.steps import Readings, Steps
 
 GRAVITY_M_S2 = 9.81
 
@@ -102,7 +101,7 @@ def lift_off(
     steps: Steps,
     settings: VerifyConfig,
     contract: Contract,
-    felt: Interval | None,
+    before: Readings,
     side_m: NDArray[np.float64],
 ) -> LiftOff:
     """Rise until the object hangs still, then rock it ever harder, up to the shake.
@@ -114,7 +113,7 @@ def lift_off(
         steps: Steps of the episode.
         settings: Distances, speeds and accelerations.
         contract: The contract that is kept.
-        felt: Force that is felt before; None where that is not known.
+        before: Readings before it.
         side_m: Way of the shake, base frame [m].
 
     Raises:
@@ -124,7 +123,7 @@ def lift_off(
     start = rig.arm.pose()
     still_s = max(STILL_S, STILL_FRAMES / rig.sensor.spec.frame_hz)
     num_rises = min(RISES, math.floor(settings.lift_mm / settings.lift_off_mm))
-    with steps.keeping(contract, felt, standing=True) as hold:
+    with steps.keeping(contract, before, standing=True) as hold:
         if hold is None:
             return LiftOff()
         rig.clock.sleep(still_s)

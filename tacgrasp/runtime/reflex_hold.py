@@ -37,6 +37,11 @@ CREPT_MM = 0.45
 """Way of the indentation along the pad that is a slip, whether or not any frame showed one [mm].
 Our choice: it seems to be 0.38 mm at most in 174 lifts of a fruit that did not move."""
 
+CHANGED, CLEAR_N = 1.3, 0.2
+"""Factor by which two felt forces differ that count as different ones, and the force from which one
+of them must be [N]; a lighter contact is not felt in one frame alone. Our choice: above what noise
+makes of the force in one frame."""
+
 SURELY = 4.0
 """Standard deviations of its noise by which a way must exceed nothing. Our choice: a hold has some
 hundred frames, of which no ten are independent."""
@@ -52,9 +57,12 @@ class ReflexHold:
         felt: Force that was felt before it [N]; None where that is not known.
         judge: Tells slips.
         floor_n: Command that a hold before has asked for; it is not lowered below [N].
+        rested: Shear field of the reading behind ``felt``; None where the sensor gives none.
 
     Attributes:
         memory: What the reflex remembers.
+        newest_n: Force felt in the newest frame alone, from the first frame of the hold on [N];
+            None where that is not known, and of a light contact.
         standing: Whether a support still catches the object.
         is_rocked: Whether the object is rocked, which looks like a slip in some frames; it then
             takes a sure one.
@@ -70,7 +78,12 @@ class ReflexHold:
     """
 
     def __init__(
-        self, terms: ForceTerms, felt: Interval | None, judge: SlipJudge, floor_n: float = 0.0
+        self,
+        terms: ForceTerms,
+        felt: Interval | None,
+        judge: SlipJudge,
+        floor_n: float = 0.0,
+        rested: ShearField | None = None,
     ) -> None:
         self.terms, self.memory = terms, ReflexMemory(floor_n=floor_n)
         self.is_found, self.is_rocked, self._rests = floor_n > 0, False, False
@@ -84,6 +97,11 @@ class ReflexHold:
         self._quiet: list[ShearField] = []
         self._watch: ShearWatch | None = None
         self._indentation: HeldIndentation | None = None
+        self.newest_n: float | None = None
+        self._quiet_n: list[float] = []  # felt in each of the quiet frames
+        self._gauge: HeldIndentation | None = None  # at rest under ``_felt_n``
+        if rested is not None and felt is not None and felt.value >= CLEAR_N:
+            self._gauge = HeldIndentation([rested])
         self.slipped_s, self.seen_s, self.called_s = -math.inf, -math.inf, -math.inf
         self._noise_mm: tuple[float, float] | None = None
         self._frames: deque[ShearField] = deque()
@@ -106,7 +124,7 @@ class ReflexHold:
     def hang(self) -> None:
         """The object hangs, at rest until the next motion: its place is measured from now on."""
         self.hanging = True
-        self._quiet, self._indentation = [], None
+        self._quiet, self._quiet_n, self._indentation = [], [], None
 
     def rest(self) -> None:
         """A motion has ended: what is measured from the next frame on is of where it rests."""
@@ -125,7 +143,8 @@ class ReflexHold:
         if self._rests:
             self._rests = False
             self.renew()
-        self.cues = None if field is None else self._see(field)
+        self.newest_n = None if field is None else self._feel_newest(field)
+        self.cues = None if field is None else self._see(field, commanded_n)
         if field is None or self.cues is None:
             return None, None
         slip, self.seen_s = self._judge.see(self.cues.values), now_s
@@ -163,14 +182,21 @@ class ReflexHold:
             self.reserve = reserve_model(field.sensor.name).read(mean, self._noise_mm)
             self.place_mm = place_mm(mean)
 
-    def _see(self, field: ShearField) -> ShearCues | None:
+    def _feel_newest(self, field: ShearField) -> float | None:
+        """Force felt in a frame alone [N]; None where that can't be told.
+
+        It is measured from the reading before the hold, until the hold's own frames at rest are
+        known.
+        """
+        for each in {self._gauge, self._indentation} - {None}:
+            assert each is not None
+            each.see(field)
+        growth = None if self._gauge is None else self._gauge.newest_growth
+        return None if growth is None or self._felt_n is None else self._felt_n * growth
+
+    def _see(self, field: ShearField, commanded_n: float) -> ShearCues | None:
         if self._indentation is None:
-            self._quiet.append(field)
-            if len(self._quiet) == QUIET_FRAMES:
-                self._noise_mm = self._noise_mm or noise_of(self._quiet)
-                self._indentation = HeldIndentation(self._quiet, self._noise_mm[1])
-        else:
-            self._indentation.see(field)
+            self._see_quiet(field, commanded_n)
         if self._watch is not None:
             return self._watch.see(field)
         if self._noise_mm is None:
@@ -181,6 +207,31 @@ class ReflexHold:
             cues = self._watch.see(each)
         return cues
 
+    def _see_quiet(self, field: ShearField, commanded_n: float) -> None:
+        """Take a frame of the hold at rest; while the force changes it is not at rest.
+
+        Its force is that of the reading, unless it has clearly changed since. While pads may slide
+        along a standing object, the indentation does not tell.
+        """
+        if self.newest_n is not None and not self.standing:
+            if self._quiet_n and _differ(self.newest_n, self._quiet_n[0]):
+                self._quiet, self._quiet_n = [], []
+            self._quiet_n.append(self.newest_n)
+        self._quiet.append(field)
+        if len(self._quiet) < QUIET_FRAMES:
+            return
+        self._noise_mm = self._noise_mm or noise_of(self._quiet)
+        self._indentation = HeldIndentation(self._quiet, self._noise_mm[1])
+        if self._felt_n is None:
+            return
+        rest_n = self._felt_n * commanded_n / self._began_n
+        if self._quiet_n:
+            quiet_n = sum(self._quiet_n) / len(self._quiet_n)
+            if _differ(quiet_n, rest_n):
+                rest_n = quiet_n
+        self._felt_n, self._began_n = rest_n, commanded_n
+        self._gauge = self._indentation if rest_n >= CLEAR_N else None
+
     def renew(self) -> None:
         """A correction was commanded: the contact will change."""
         if self._watch is not None:
@@ -189,3 +240,9 @@ class ReflexHold:
             self._indentation.renew()
         self._frames.clear()
         self.reserve = None
+
+
+def _differ(force_n: float, other_n: float) -> bool:
+    """Whether two felt forces [N] are clearly different ones."""
+    is_near = other_n / CHANGED <= force_n <= other_n * CHANGED
+    return not is_near and max(force_n, other_n) >= CLEAR_N

@@ -20,7 +20,7 @@ from cltp.errors import TouchError
 from cltp.tactile.shear.field import ShearField
 from cltp.tactile.shear.slip import SlipJudge, slip_model
 from cltp.tactile.shear.slip_calibration import load_slip_calibration
-from policies.reflex import IMPOSSIBLE, Act, Correction, ReflexReading, correct
+from policies.reflex import IMPOSSIBLE, RESPONSE_S, Act, Correction, ReflexReading, correct
 from policies.reflex_trace import NO_SLIP, ForceCorrection, ReflexTrace, absent_trace
 from primitives.contract import Contract
 from primitives.execution import Executor
@@ -58,7 +58,9 @@ class ReflexLoop:
         self._num_blind, self._blind, self._ran = 0, "", False
 
     @contextmanager
-    def deciding(self, contract: Contract, felt: Interval | None) -> Iterator[None]:
+    def deciding(
+        self, contract: Contract, felt: Interval | None, rested: ShearField | None = None
+    ) -> Iterator[None]:
         """Keep the contract while the block lets a policy decide; nothing else is commanded.
 
         A decision takes ``DECISION_S`` in a simulated world. Without contact, and where there is no
@@ -67,6 +69,7 @@ class ReflexLoop:
         Args:
             contract: The contract.
             felt: Force that is felt now; None without contact.
+            rested: Shear field in which it is felt; None where that is not known.
 
         Raises:
             TouchError: The reflex had no reading for too long.
@@ -75,7 +78,7 @@ class ReflexLoop:
         if felt is None or self._executor.force_n <= 0 or self._is_absent():
             yield
             return
-        with self._beating(self._hold(contract, felt)):
+        with self._beating(self._hold(contract, felt, rested)):
             yield
             if isinstance(self._rig.clock, CallingClock):
                 self._rig.clock.sleep(DECISION_S)
@@ -86,6 +89,7 @@ class ReflexLoop:
         self,
         contract: Contract,
         felt: Interval | None,
+        rested: ShearField | None = None,
         *,
         standing: bool = False,
         floor_n: float = 0.0,
@@ -98,6 +102,7 @@ class ReflexLoop:
         Args:
             contract: The contract.
             felt: Force that is felt now; None where that is not known.
+            rested: Shear field in which it is felt; None likewise.
             standing: Whether a support still catches the object.
             floor_n: Command that a hold before has asked for; it is not lowered below [N].
 
@@ -109,7 +114,7 @@ class ReflexLoop:
         if self._is_absent():
             yield None
             return
-        hold = self._hold(contract, felt, floor_n)
+        hold = self._hold(contract, felt, rested, floor_n)
         with self._beating(hold):
             self._rig.clock.sleep((QUIET_FRAMES + 0.5) * self._period_s)
             hold.standing, hold.hanging = standing, not standing
@@ -119,13 +124,19 @@ class ReflexLoop:
         self.absent = self.absent or _unit_absence(self._rig)
         return bool(self.absent)
 
-    def _hold(self, contract: Contract, felt: Interval | None, floor_n: float = 0.0) -> ReflexHold:
+    def _hold(
+        self,
+        contract: Contract,
+        felt: Interval | None,
+        rested: ShearField | None,
+        floor_n: float = 0.0,
+    ) -> ReflexHold:
         spec = self._rig.sensor.spec
         most_n = IMPOSSIBLE * self._executor.most_felt_n(self._executor.force_n)
         if felt is not None and felt.value > most_n:
             felt = None  # what no command makes says nothing of the force; a slip is told without
         judge = SlipJudge(slip_model(spec.name), spec.frame_hz, self._threshold)
-        return ReflexHold(contract.terms, felt, judge, floor_n)
+        return ReflexHold(contract.terms, felt, judge, floor_n, rested)
 
     @contextmanager
     def _beating(self, hold: ReflexHold) -> Iterator[None]:
@@ -191,6 +202,9 @@ class ReflexLoop:
         Raises:
             TouchError: There was no reading for too long.
         """
+        since_s = reading.t_s - max(hold.memory.raised_s, hold.memory.lowered_s)
+        if reading.newest_n is not None and since_s > RESPONSE_S + self._period_s:
+            self._executor.feel_growth(reading.may_feel_n)
         correction, hold.memory = correct(reading, hold.terms, hold.memory, self._period_s)
         if hold.memory.blind_s is not None:
             self._num_blind, self._blind = self._num_blind + 1, correction.reason
@@ -237,6 +251,7 @@ class ReflexLoop:
             slip=slip,
             commanded_n=commanded_n,
             most_felt_n=self._executor.most_felt_n(commanded_n),
+            newest_n=hold.newest_n,
             standing=hold.standing,
             is_found=hold.is_found,
             ahead_n=hold.ahead_n,

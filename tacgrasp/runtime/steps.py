@@ -241,7 +241,7 @@ class Steps:
 
     def aim(self, executor: Executor, seen: Observation, contract: Contract) -> Contract:
         """The contract of this step: its force band is the target that this object needs."""
-        aimed, words = self._aim.at(contract, seen)
+        aimed, words = self._aim.at(contract, seen, executor.reach_n)
         if words:
             executor.aim_at(aimed)
             self._need = Need(force_n=aimed.terms.force_n, felt=words)
@@ -329,13 +329,14 @@ class Steps:
 
     def deciding(self, contract: Contract, seen: Readings) -> AbstractContextManager[None]:
         """``ReflexLoop.deciding``, which raises as it does; without a reflex, nothing."""
-        felt = seen.felt_force_n
-        return nullcontext() if self.reflex is None else self.reflex.deciding(contract, felt)
+        if self.reflex is None:
+            return nullcontext()
+        return self.reflex.deciding(contract, seen.felt_force_n, seen.shear)
 
     def keeping(
         self,
         contract: Contract,
-        felt: Interval | None,
+        seen: Readings,
         *,
         standing: bool = False,
         floor_n: float = 0.0,
@@ -343,7 +344,9 @@ class Steps:
         """``ReflexLoop.keeping``, which raises as it does; without a reflex, nothing."""
         if self.reflex is None:
             return nullcontext()
-        return self.reflex.keeping(contract, felt, standing=standing, floor_n=floor_n)
+        return self.reflex.keeping(
+            contract, seen.felt_force_n, seen.shear, standing=standing, floor_n=floor_n
+        )
 
     def record_cut_short(self, step: Step | None, message: str) -> None:
         """Record a step that the end of the episode interrupted before its own record began.

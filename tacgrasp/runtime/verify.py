@@ -52,12 +52,12 @@ def verify_by_lifting(
     shake = [sideways, lifted] * settings.shakes if settings.shake_mm > 0 else []
     floor_n = 0.0
     if settings.lift_off_mm > 0 and before.felt_force_n is not None:
-        hangs = lift_off(rig, steps, settings, contract, before.felt_force_n, side_m)
+        hangs = lift_off(rig, steps, settings, contract, before, side_m)
         if hangs.problem:
             _move(rig, start, settings, settings.acceleration_m_s2)
             return Verification(passed=False, message=hangs.problem)
         before, floor_n = steps.observe(StepPhase.VERIFY_BEFORE), hangs.floor_n  # as it hangs
-    with steps.keeping(contract, before.felt_force_n, floor_n=floor_n):
+    with steps.keeping(contract, before, floor_n=floor_n):
         _move(rig, lifted, settings, settings.acceleration_m_s2)
         for pose in shake:
             _move(rig, pose, settings, settings.shake_acceleration_m_s2)
@@ -65,7 +65,7 @@ def verify_by_lifting(
     after = steps.observe(StepPhase.VERIFY_AFTER)
     verification = compare(before, after, settings, slip_mm=contract.slip_mm)
     if settings.set_down and verification.passed:
-        with steps.keeping(contract, after.felt_force_n, floor_n=floor_n):
+        with steps.keeping(contract, after, floor_n=floor_n):
             _move(rig, start, settings, settings.acceleration_m_s2)
     if not verification.passed:
         # an object that is still held must not fall when it is released

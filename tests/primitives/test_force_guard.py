@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from primitives import LimitError
 from primitives.force_guard import GuardedGripper
-from primitives.gain import LEAST_FELT_N
+from primitives.gain import LEAST_FELT_N, LOST
 from primitives.sense import Interval
 from tests.fakes.hidden_gain import HiddenGainGripper
 
@@ -52,9 +52,43 @@ def test_a_force_that_is_clearly_felt_takes_the_place_of_the_stated_bound(gain, 
     assert guard.most_n == pytest.approx(4.0 / MAX_GAIN)
     guard.grip(1.1)
     guard.feel(gripper.felt(spread))
-    assert guard.most_n == pytest.approx(4.0 / (gain * spread))
+    most = max(gain * spread, min(MAX_GAIN, LOST * gain))
+    assert guard.most_n == pytest.approx(4.0 / most)
     guard.grip(100.0)
-    assert gripper.peak_n == pytest.approx(4.0 / spread)
+    assert gripper.peak_n == pytest.approx(4.0 * gain / most)
+
+
+@given(gain=gains, felt_part=st.floats(1 / LOST, 1.0))
+def test_a_sensor_that_feels_too_little_does_not_lead_beyond_the_limit(gain, felt_part):
+    guard, gripper = guarded(gain, limit_n=2.0)
+    for _ in range(5):
+        guard.grip(100.0)
+        guard.feel(gripper.felt(1.2, bias=felt_part))
+    assert gripper.peak_n <= 2.0 * (1 + 1e-6)
+
+
+def test_a_ratio_that_grows_without_a_command_is_heard_of_at_once():
+    guard, gripper = guarded(0.5, limit_n=4.0)
+    guard.grip(1.1)
+    guard.feel(gripper.felt(1.2))
+    before_n = guard.most_n
+    guard.feel_growth(1.2 * 0.5 * 1.1)  # a noisy frame
+    assert guard.most_n == before_n
+    gripper.gain = 2.0
+    guard.feel_growth(2.0 * 1.1)
+    guard.grip(100.0)
+    assert gripper.commands_n[-1] * 2.0 <= 4.0
+
+
+def test_of_a_contact_that_leaves_the_pad_no_lower_ratio_is_believed():
+    guard, gripper = guarded(1.0, limit_n=4.0)
+    guard.grip(1.0)
+    guard.feel(gripper.felt(1.2))
+    before_n = guard.most_n
+    for bias in (0.7, 0.3, 0.1):
+        guard.grip(1.0)
+        guard.feel(gripper.felt(1.2, bias=bias))
+        assert guard.most_n == before_n
 
 
 def test_a_ratio_above_the_stated_bound_is_believed_of_a_clear_force_alone():

@@ -23,7 +23,7 @@ from tacgrasp.runtime.lift_off import (
     lift_off,
 )
 from tacgrasp.runtime.reflex_loop import ReflexLoop
-from tacgrasp.runtime.steps import NoRecorder, Steps
+from tacgrasp.runtime.steps import NoRecorder, Steps, read_observation
 
 SEED = 5
 SIDE_M = np.array([0.025, 0.0, 0.0])
@@ -44,8 +44,9 @@ def lifted_off(part, sensor="taxels", limit_n=None, lift_off_mm=1.0):
     steps = Steps(rig, config.loop, NoRecorder(), [], reflex=ReflexLoop(rig, executor))
     force_n = rig.truth().force_n
     felt = Interval(value=force_n, low=0.8 * force_n, high=1.2 * force_n)
+    before = replace(read_observation(rig, None), felt_force_n=felt)
     verify = config.verify.model_copy(update={"lift_off_mm": lift_off_mm})
-    found = lift_off(rig, steps, verify, contract, felt, SIDE_M)
+    found = lift_off(rig, steps, verify, contract, before, SIDE_M)
     return rig, found, least_n
 
 

@@ -9,6 +9,7 @@ from cltp.tactile.shear.field import ShearField
 from cltp.tactile.shear.reserve import Reserve
 from policies.reflex import SURE_SLIP
 from primitives.contract import Band, ForceTerms
+from primitives.sense import Interval
 from tacgrasp.runtime import reflex_hold
 from tacgrasp.runtime.reflex_hold import DENIED, LEAST_RESERVE, QUIET_FRAMES, ReflexHold
 
@@ -141,3 +142,45 @@ def test_too_little_reserve_counts_unless_the_frames_deny_a_slip(
 def test_a_force_that_a_lift_off_has_found_is_known_in_the_next_hold():
     assert ReflexHold(TERMS, None, Judge(), floor_n=0.2).is_found
     assert not ReflexHold(TERMS, None, Judge()).is_found
+
+
+FELT = Interval(value=0.5, low=0.4, high=0.6)
+
+
+@pytest.mark.parametrize(("depth_mm", "grown"), [(0.08, 1.0), (0.16, 2.0), (0.04, 0.5)])
+def test_a_force_that_changed_since_the_reading_is_felt_in_the_first_frame(rng, depth_mm, grown):
+    hold = ReflexHold(TERMS, FELT, Judge(), rested=frame(rng, 0.0))
+    newest_n = []
+    for k in range(QUIET_FRAMES + 5):
+        felt_n, _ = hold.felt_and_slip(frame(rng, 0.0, depth_mm=depth_mm), k * PERIOD_S, 0.3)
+        newest_n.append(hold.newest_n)
+    assert newest_n == pytest.approx([grown * FELT.value] * len(newest_n), rel=0.2)
+    assert felt_n == pytest.approx(grown * FELT.value, rel=0.1)
+
+
+def test_quiet_frames_begin_anew_when_the_force_changes_among_them(rng):
+    hold = ReflexHold(TERMS, FELT, Judge(), rested=frame(rng, 0.0))
+    for k in range(QUIET_FRAMES - 1):
+        hold.felt_and_slip(frame(rng, 0.0), k * PERIOD_S, 0.3)
+    told = [
+        hold.felt_and_slip(frame(rng, 0.0, depth_mm=0.16), 1.0 + k * PERIOD_S, 0.3)[0]
+        for k in range(QUIET_FRAMES)
+    ]
+    assert told[:-1] == [None] * (QUIET_FRAMES - 1)
+    assert told[-1] == pytest.approx(2 * FELT.value, rel=0.1)
+
+
+def test_of_a_light_contact_one_frame_tells_no_force(rng):
+    light = Interval(value=0.1, low=0.08, high=0.12)
+    hold = ReflexHold(TERMS, light, Judge(), rested=frame(rng, 0.0))
+    hold.felt_and_slip(frame(rng, 0.0), 0.0, 0.3)
+    assert hold.newest_n is None
+
+
+def test_frames_of_a_lowered_command_rest_at_less(rng):
+    hold = ReflexHold(TERMS, FELT, Judge(), rested=frame(rng, 0.0))
+    hold.felt_and_slip(frame(rng, 0.0), 0.0, 0.3)
+    for k in range(QUIET_FRAMES + 5):
+        told, _ = hold.felt_and_slip(frame(rng, 0.0, depth_mm=0.04), k * PERIOD_S, 0.15)
+    assert told == pytest.approx(0.5 * FELT.value, rel=0.1)
+    assert hold.newest_n == pytest.approx(0.5 * FELT.value, rel=0.15)
