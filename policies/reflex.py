@@ -79,6 +79,10 @@ IMPOSSIBLE = 3.0
 """Factor beyond the largest force that the command can make from which a reading is none. Our
 choice: twice the error of a contact that the pad's edge cuts."""
 
+NEWEST_POSSIBLE = 2.0
+"""The same of the newest frame alone, which is then left out. Our choice: a gripper's gain may
+double."""
+
 PERIODS, MARGIN_S = 2.0, 0.02
 """A reading is stale after so many periods of the sensor and this margin [s], as in
 ``tacgrasp.rig.guard``."""
@@ -135,7 +139,7 @@ class ReflexReading:
         0 where none is known.
         """
         newest_n = self.newest_n or 0.0
-        if not newest_n <= IMPOSSIBLE * self.most_felt_n:
+        if not newest_n <= NEWEST_POSSIBLE * self.most_felt_n:
             newest_n = 0.0
         return max(self.felt_n or 0.0, newest_n)
 

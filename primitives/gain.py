@@ -79,7 +79,7 @@ class GainEstimator:
         self._grips: list[list[float]] = [[]]  # ln(felt over commanded) of each reading
         self._bound: Interval | None = None
         self._spread = math.inf  # upper bound over value of the felt force behind it
-        self._trusted = 0.0  # highest ratio as clear as that, of ``TRUSTED_N`` at least
+        self._trusted = 0.0  # highest possible ratio as clear as that, of ``TRUSTED_N`` at least
 
     def new_grip(self) -> None:
         """A command was sent: what is felt from now on is another grip."""
@@ -104,16 +104,19 @@ class GainEstimator:
         spread = felt.high / felt.value
         is_clearer, is_as_clear = spread < 0.99 * self._spread, spread <= 1.01 * self._spread
         if is_clearer or (is_as_clear and value >= KEPT * self._trusted):
+            is_trusted = felt.value >= TRUSTED_N and value <= self._max_gain
             before = 0.0 if is_clearer else self._trusted
-            self._trusted = max(before, value if felt.value >= TRUSTED_N else 0.0)
+            self._trusted = max(before, value if is_trusted else 0.0)
             self._bound, self._spread = Interval(value=value, low=low, high=high), spread
 
     def rise(self, felt_n: float, commanded_n: float) -> None:
-        """Widen the bound for a force [N] that clearly grew under one command [N], in any frame."""
+        """Widen the bound for a force [N] that clearly grew under one command [N], in any frame.
+
+        One frame is believed no further than the rig's own bound.
+        """
         if self._bound is None or commanded_n <= 0 or felt_n < LEAST_FELT_N:
             return
-        most = math.inf if felt_n >= TRUSTED_N else self._max_gain
-        factor = min(most, felt_n / commanded_n) / self._bound.value
+        factor = min(self._max_gain, felt_n / commanded_n) / self._bound.value
         if factor > ROSE:
             old = self._bound
             self._bound = Interval(

@@ -62,7 +62,7 @@ class ReflexHold:
     Attributes:
         memory: What the reflex remembers.
         newest_n: Force felt in the newest frame alone, from the first frame of the hold on [N];
-            None where that is not known, and of a light contact.
+            None where that is not known, of a light contact and of a standing object.
         standing: Whether a support still catches the object.
         is_rocked: Whether the object is rocked, which looks like a slip in some frames; it then
             takes a sure one.
@@ -186,12 +186,12 @@ class ReflexHold:
         """Force felt in a frame alone [N]; None where that can't be told.
 
         It is measured from the reading before the hold, until the hold's own frames at rest are
-        known.
+        known. While pads may slide along a standing object, the indentation does not tell.
         """
         for each in {self._gauge, self._indentation} - {None}:
             assert each is not None
             each.see(field)
-        growth = None if self._gauge is None else self._gauge.newest_growth
+        growth = None if self._gauge is None or self.standing else self._gauge.newest_growth
         return None if growth is None or self._felt_n is None else self._felt_n * growth
 
     def _see(self, field: ShearField, commanded_n: float) -> ShearCues | None:
@@ -210,10 +210,9 @@ class ReflexHold:
     def _see_quiet(self, field: ShearField, commanded_n: float) -> None:
         """Take a frame of the hold at rest; while the force changes it is not at rest.
 
-        Its force is that of the reading, unless it has clearly changed since. While pads may slide
-        along a standing object, the indentation does not tell.
+        Its force is that of the reading, unless it has clearly changed since.
         """
-        if self.newest_n is not None and not self.standing:
+        if self.newest_n is not None:
             if self._quiet_n and _differ(self.newest_n, self._quiet_n[0]):
                 self._quiet, self._quiet_n = [], []
             self._quiet_n.append(self.newest_n)

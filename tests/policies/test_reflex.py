@@ -17,6 +17,7 @@ from policies.reflex import (
     LOWER_EVERY_S,
     MAX_BLIND_S,
     MOST_FACTOR,
+    NEWEST_POSSIBLE,
     RELIEVED,
     RESPONSE_S,
     SMALL_EVERY_S,
@@ -119,7 +120,7 @@ def test_near_the_limit_the_force_is_lowered_at_once_slip_or_not(slip, felt):
 
 
 def test_what_no_command_makes_in_the_newest_frame_alone_is_no_force():
-    most_n = IMPOSSIBLE * CALM.most_felt_n
+    most_n = NEWEST_POSSIBLE * CALM.most_felt_n
     for newest_n in (1.01 * most_n, math.inf, math.nan):
         correction, memory = act(replace(CALM, newest_n=newest_n))
         assert (correction.act, memory.blind_s) == (Act.HOLD, None)
