@@ -346,7 +346,7 @@ class Executor:
 
     def feel_growth(self, felt_n: float) -> None:
         """A force [N] is felt under a command that has settled (a reflex, in any frame)."""
-        self._gripper.feel_growth(felt_n)
+        self._gripper.feel_growth(felt_n, self._force_n)
 
     def correct_force(self, force_n: float) -> GripperState:
         """Change the force of a closed grip between two primitives, within all limits (a reflex).

@@ -73,11 +73,12 @@ class GuardedGripper:
         if felt is not None and state.closed:
             self._gains.feel(felt, state.force_n)
 
-    def feel_growth(self, felt_n: float) -> None:
-        """Widen the ratio's bounds for a force [N] that clearly grew without a command."""
-        state = self._gripper.state()
-        if state.closed:
-            self._gains.rise(felt_n, state.force_n)
+    def feel_growth(self, felt_n: float, commanded_n: float) -> None:
+        """Widen the ratio's bounds for a force [N] that clearly grew under one command [N].
+
+        It asks the gripper nothing, so that it may be called for each frame.
+        """
+        self._gains.rise(felt_n, commanded_n)
 
     def state(self) -> GripperState:
         """State of the gripper."""

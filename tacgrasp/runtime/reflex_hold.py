@@ -188,9 +188,10 @@ class ReflexHold:
         It is measured from the reading before the hold, until the hold's own frames at rest are
         known. While pads may slide along a standing object, the indentation does not tell.
         """
-        for each in {self._gauge, self._indentation} - {None}:
-            assert each is not None
-            each.see(field)
+        if self._indentation is not None:
+            self._indentation.see(field)
+        if self._gauge is not None and self._gauge is not self._indentation:
+            self._gauge.see(field)
         growth = None if self._gauge is None or self.standing else self._gauge.newest_growth
         return None if growth is None or self._felt_n is None else self._felt_n * growth
 

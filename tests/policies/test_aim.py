@@ -53,6 +53,16 @@ def test_the_contract_bounds_the_target_whatever_is_felt(least_n, ratio, text):
     assert target.high <= TARGET_FACTOR**2 * target.low * (1 + 1e-9)
 
 
+@given(reach_n=st.floats(0.05, 3.0))
+def test_a_target_goes_no_further_than_the_limit_lets_through_unless_less_does_not_hold(reach_n):
+    full, target = needed(OWN, need(0.4, 0.9)), needed(OWN, need(0.4, 0.9), reach_n)
+    assert target.middle <= full.middle
+    assert target.high <= max(reach_n, 0.4 * TARGET_FACTOR) * (1 + 1e-9)
+    assert target.middle >= min(full.middle, 0.4) * (1 - 1e-9)
+    if reach_n >= full.high:
+        assert target == full
+
+
 @pytest.mark.parametrize("text", ["Hold it with 1 N.", "Hold it with 0.5 to 1 N."])
 def test_a_force_that_is_named_is_itself_the_target(text):
     assert read_contract(text, TASK, {}).needs == ""

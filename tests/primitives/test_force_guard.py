@@ -72,10 +72,10 @@ def test_a_ratio_that_grows_without_a_command_is_heard_of_at_once():
     guard.grip(1.1)
     guard.feel(gripper.felt(1.2))
     before_n = guard.most_n
-    guard.feel_growth(1.2 * 0.5 * 1.1)  # a noisy frame
+    guard.feel_growth(1.2 * 0.5 * 1.1, 1.1)  # a noisy frame
     assert guard.most_n == before_n
     gripper.gain = 2.0
-    guard.feel_growth(2.0 * 1.1)
+    guard.feel_growth(2.0 * 1.1, 1.1)
     guard.grip(100.0)
     assert gripper.commands_n[-1] * 2.0 <= 4.0
 
