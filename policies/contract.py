@@ -127,7 +127,7 @@ def read_contract(text: str, task: TaskTerms, given: Mapping[str, object]) -> Co
 def _soft_terms(draft: _Draft, task: TaskTerms) -> ForceTerms | None:
     """Terms that a soft contact would be held to: under a contract for hard things alone."""
     soft = task.soft
-    if soft is None or draft.force.limit_n <= LIMIT_OVER_BAND * soft.limit_n:
+    if soft is None or draft.force.force_n.high <= LIMIT_OVER_BAND * soft.force_n.high:
         return None
     return soft
 

@@ -41,9 +41,9 @@ ask for a change that they would notice, and a strawberry stands no more than a 
 MOST_OF_TASK = 3.0
 """Largest force that words alone may name, as a factor on the task's limit."""
 
-MOST_OF_NEEDS = 2.25
-"""The same for a task whose band is that of objects of all sizes: three times the limit of one of a
-common size (a berry of 25 g)."""
+MOST_OF_NEEDS = 1.4
+"""The same for a task whose band is that of objects of all sizes: three times what one of a common
+size (a berry of 25 g) may be pressed with."""
 
 LEANS: Mapping[tuple[int, bool], float] = {
     (-1, True): 0.1,

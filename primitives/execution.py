@@ -222,10 +222,11 @@ class Executor:
                 raise LimitError(f"{name} must be finite and above 0, got {value}")
         check_workspace(start_pose, limits)
         clamp_force(first_force_n, limits)
-        limit_n = math.inf if contract is None else contract.terms.limit_n
-        if contract is not None and contract.soft is not None:
-            limit_n = min(limit_n, contract.soft.force_n.high)  # until it is known to be hard
-        self._gripper = GuardedGripper(gripper, limit_n=limit_n, max_gain=max_gain)
+        self._gripper = GuardedGripper(gripper, limit_n=math.inf, max_gain=max_gain)
+        if contract is not None and contract.soft is not None:  # until it is known to be hard
+            self._gripper.keep_to(min(contract.terms.limit_n, contract.soft.force_n.high), 0.0)
+        elif contract is not None:
+            self._gripper.keep_to(contract.terms.limit_n, contract.terms.force_n.low)
         self._arm, self._limits = arm, limits
         self._clear_m = clear_mm * 1e-3
         self._move_step_mm = move_step_mm
@@ -268,13 +269,13 @@ class Executor:
         if state.closed:
             self._stiffness.feel(state.force_n, state.width_m, self._gripper.gain)
         if self._stiffness.is_soft is False:
-            self._gripper.keep_to(contract.terms.limit_n)
+            self._gripper.keep_to(contract.terms.limit_n, contract.terms.force_n.low)
         return self._stiffness.is_soft
 
     def keep(self, contract: Contract) -> None:
         """Keep another contract from now on; what is felt has objected to the one before."""
         self._contract = contract
-        self._gripper.keep_to(contract.terms.limit_n)
+        self._gripper.keep_to(contract.terms.limit_n, contract.terms.force_n.low)
 
     def aim_at(self, contract: Contract) -> None:
         """Go towards another force band of the same contract from now on; its limit stays."""

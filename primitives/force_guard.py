@@ -1,9 +1,10 @@
 """The hard limit of a contract, kept where a command to the gripper is written.
 
 A contract speaks of felt newtons, a gripper is sent commanded ones. The ratio between them is
-hidden until something is felt; from then on it is known within bounds (``primitives.gain``). A
-command is sent only if it, times the largest ratio within them, stays within the limit. Policy, jog
-and replay all command through the same ``GuardedGripper``.
+hidden until something is felt; from then on it is known within an interval (``primitives.gain``). A
+command is sent only if it, times the upper end of that interval, stays within the limit; and if it
+does so even with a sensor that has lost sensitivity, except for what the contract needs at least.
+Policy, jog and replay all command through the same ``GuardedGripper``.
 """
 
 from __future__ import annotations
@@ -16,6 +17,10 @@ from primitives.devices import AdjustableGripper, Gripper, GripperState
 from primitives.errors import LimitError
 from primitives.gain import GainEstimate, GainEstimator
 from primitives.sense import Interval
+
+NEEDED = 1.1
+"""Part of the least force of a contract that may be commanded. Our choice: what is felt varies by
+so much from grip to grip, and a force just at the end of the band would often be felt below it."""
 
 
 class GuardedGripper:
@@ -38,7 +43,7 @@ class GuardedGripper:
                 f"{max_gain}"
             )
         self._gripper = gripper
-        self._limit_n = limit_n
+        self._limit_n, self._needed_n = limit_n, 0.0
         self._gains = GainEstimator(max_gain)
         self.open_by, self.stop = gripper.open_by, gripper.stop  # passed through
         self.disconnect = gripper.disconnect
@@ -61,11 +66,19 @@ class GuardedGripper:
     @property
     def most_n(self) -> float:
         """Largest command that is sent [N]."""
-        return self._limit_n / self._gains.most
+        most_n, gain = self._limit_n / self._gains.most, self.gain
+        if gain is None:
+            return most_n
+        return max(most_n, min(self._needed_n / gain.value, self._limit_n / gain.high))
 
-    def keep_to(self, limit_n: float) -> None:
-        """Set another limit of felt force [N]; the executor alone does so, from its contract."""
-        self._limit_n = limit_n
+    def keep_to(self, limit_n: float, needed_n: float) -> None:
+        """Set another limit; the executor alone does so, from its contract.
+
+        Args:
+            limit_n: Felt force that is never exceeded [N].
+            needed_n: Felt force that a contract needs at least [N]; 0 for none.
+        """
+        self._limit_n, self._needed_n = limit_n, NEEDED * needed_n
 
     def feel(self, felt: Interval | None) -> None:
         """Learn the ratio from the force that is felt under the present command."""

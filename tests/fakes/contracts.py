@@ -9,7 +9,7 @@ from primitives.contract import Band, Contract, ForceTerms, TaskTerms
 STRAWBERRY = ForceTerms(force_n=Band(low=0.95, high=1.9), limit_n=2.375)
 """Force band and limit for soft things, without what is felt of them."""
 
-BERRY = ForceTerms(force_n=Band(low=0.15, high=2.5), limit_n=3.125, needs="strawberry")
+BERRY = ForceTerms(force_n=Band(low=0.15, high=2.5), limit_n=5.0, needs="strawberry")
 """Terms of the strawberry task."""
 
 PEG = ForceTerms(force_n=Band(low=3.6, high=7.2), limit_n=9.0)

@@ -172,7 +172,7 @@ def test_the_narrowest_interval_is_kept_and_a_later_one_of_equals():
 def test_a_lower_limit_holds_from_the_next_command_on():
     guard, gripper = guarded(limit_n=8.0)
     guard.grip(4.0)
-    guard.keep_to(2.0)
+    guard.keep_to(2.0, 0.0)
     assert guard.limit_n == 2.0
     guard.grip(4.0)
     assert gripper.commands_n == [4.0, 1.0]

@@ -273,4 +273,4 @@ def test_jog_keeps_to_the_tasks_limit_and_says_what_it_lowered(
     assert main(["jog", "--seed", "3", "--force-n", "0.5"]) == 0
     closed = [line for line in capsys.readouterr().out.splitlines() if line.startswith("closed")]
     assert "lowered" not in closed[0]
-    assert "contract's limit of 3.12 N" in closed[1]
+    assert "contract's limit of 5 N" in closed[1]
