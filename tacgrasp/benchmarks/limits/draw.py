@@ -83,7 +83,7 @@ LEAST_GAIN_CHANGE = 1.25
 
 WORDED_LIMIT_N = (0.6, 2.4)
 """Limits that half of the instructions name, uniform in the logarithm [N]: below and above what
-berries need. The task's own limit of 3.1 N is so far above its grips that few faults reach it."""
+berries need. The task's own limit of 5 N is so far above its grips that few faults reach it."""
 
 ROOM = math.exp(CUT_SPREAD)
 """Least ratio of the limit to the force that a body of this size and stiffness is gripped with at
