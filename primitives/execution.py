@@ -431,6 +431,8 @@ class Executor:
         at_limit = force.note or allowed_n < force.value
         reason = AT_LIMIT if at_limit else "the goal leaves no room for a change"
         notes = [force.note, reason if unchanged else ""]
+        if unchanged and allowed_n < force.value:
+            notes.append(self._gripper.why_no_more)
         if not self._dry_run and not unchanged:
             state = self._grip(force.value)
             notes.append(state.clamped)

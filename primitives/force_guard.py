@@ -71,6 +71,15 @@ class GuardedGripper:
             return most_n
         return max(most_n, min(self._needed_n / gain.value, self._limit_n / gain.high))
 
+    @property
+    def why_no_more(self) -> str:
+        """Why no more than ``most_n`` is sent, and what lets more through, for people."""
+        return (
+            f"{self.most_n:.3g} N commanded may press {self._limit_n:.3g} N, the contract's limit, "
+            f"as far as is known: {self._limit_n / self.most_n:.2g} times as much; a smaller "
+            "gripper.max_force_gain lets more through, if the gripper keeps to it"
+        )
+
     def keep_to(self, limit_n: float, needed_n: float) -> None:
         """Set another limit; the executor alone does so, from its contract.
 

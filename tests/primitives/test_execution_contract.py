@@ -168,6 +168,7 @@ def test_an_increase_at_the_contracts_limit_sends_nothing_and_says_so():
     again = rig.executor.execute(Primitive.INCREASE_FORCE)
     assert again.sent == "nothing"
     assert AT_LIMIT in again.clamped
+    assert any("a smaller gripper.max_force_gain" in note for note in again.clamped)
 
 
 def test_what_is_felt_lets_a_weak_gripper_reach_the_band():
