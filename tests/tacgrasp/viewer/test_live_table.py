@@ -21,7 +21,7 @@ def shown(width: int, height: int = 40, num_steps: int = 3) -> str:
     console = Console(file=io.StringIO(), force_terminal=True, width=width, height=height)
     with LiveTable(CONTRACT, console) as table:
         for index in range(num_steps):
-            felt = Interval(value=(1.0, 2.8, 3.3)[index % 3], low=0.7, high=4.4)
+            felt = Interval(value=(1.0, 2.8, 5.3)[index % 3], low=0.7, high=6.4)
             table(replace(step_record(index % 8), index=index, felt_force_n=felt, in_contact=True))
         console.file.truncate(0)
         console.file.seek(0)
@@ -42,7 +42,7 @@ def test_the_table_fits_the_terminal_and_is_never_wider_than_a_hundred_columns(w
 
 def test_each_step_shows_its_felt_force_with_the_interval_the_contact_and_the_action() -> None:
     text = "\n".join(plain(shown(100)))
-    for part in ("1.00 N", "0.70-4.40", "0.40 mm, 9%", "(+5.0, -4.0) mm", "move_down: 2.5 mm"):
+    for part in ("1.00 N", "0.70-6.40", "0.40 mm, 9%", "(+5.0, -4.0) mm", "move_down: 2.5 mm"):
         assert part in text
     assert "0.15-2.50 N" in text  # the goal, above the felt forces
     assert "uncalibrated" in text
@@ -58,4 +58,4 @@ def test_a_force_is_green_in_the_goal_yellow_outside_and_red_above_the_limit() -
     text = shown(100)
     assert "\x1b[32m1.00 N" in text
     assert "\x1b[33m2.80 N" in text
-    assert "\x1b[31m3.30 N" in text
+    assert "\x1b[31m5.30 N" in text
