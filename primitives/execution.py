@@ -226,7 +226,7 @@ class Executor:
         if contract is not None and contract.soft is not None:  # until it is known to be hard
             self._gripper.keep_to(min(contract.terms.limit_n, contract.soft.force_n.high), 0.0)
         elif contract is not None:
-            self._gripper.keep_to(contract.terms.limit_n, contract.terms.force_n.low)
+            self.keep(contract)
         self._arm, self._limits = arm, limits
         self._clear_m = clear_mm * 1e-3
         self._move_step_mm = move_step_mm
@@ -269,7 +269,7 @@ class Executor:
         if state.closed:
             self._stiffness.feel(state.force_n, state.width_m, self._gripper.gain)
         if self._stiffness.is_soft is False:
-            self._gripper.keep_to(contract.terms.limit_n, contract.terms.force_n.low)
+            self.keep(contract)
         return self._stiffness.is_soft
 
     def keep(self, contract: Contract) -> None:

@@ -23,6 +23,7 @@ from cltp.tactile.shear.slip import SlipJudge, noise_of
 from policies.reflex import RESPONSE_S, SURE_SLIP, ReflexMemory
 from primitives.contract import ForceTerms
 from primitives.sense import Interval
+from tacgrasp.rig.gel_sense import CLEAR_N
 
 QUIET_FRAMES = 10
 """Frames of the hold at rest before anything moves, which tell the unit's noise. Our choice: a
@@ -37,10 +38,10 @@ CREPT_MM = 0.45
 """Way of the indentation along the pad that is a slip, whether or not any frame showed one [mm].
 Our choice: it seems to be 0.38 mm at most in 174 lifts of a fruit that did not move."""
 
-CHANGED, CLEAR_N = 1.3, 0.2
-"""Factor by which two felt forces differ that count as different ones, and the force from which one
-of them must be [N]; a lighter contact is not felt in one frame alone. Our choice: above what noise
-makes of the force in one frame."""
+CHANGED = 1.3
+"""Factor by which two felt forces differ that count as different ones, if one of them is clear
+(``CLEAR_N``); a lighter contact is not felt in one frame alone. Our choice: above what noise makes
+of the force in one frame."""
 
 SURELY = 4.0
 """Standard deviations of its noise by which a way must exceed nothing. Our choice: a hold has some

@@ -45,7 +45,6 @@ class HeldIndentation:
     Attributes:
         growth: Volume over that at rest, in the mean of frames since the force last changed; None
             where nothing was indented at rest.
-        newest_growth: The same in the newest frame alone.
         way_mm: How far its middle has moved along the pad since the force last changed [mm]; 0
             while that is not known.
         spread_mm: Standard deviation of the way that noise alone makes [mm].
@@ -69,8 +68,17 @@ class HeldIndentation:
             self._fit = self._surface @ np.linalg.pinv(self._surface[self._around])
         self._rest_volume, self._from_mm = self._measured(self._rest_mm)
         self.place_mm = self._from_mm
-        self.growth = self.newest_growth = 1.0 if self._rest_volume > 0 else None
+        self.growth = 1.0 if self._rest_volume > 0 else None
+        self._newest_mm = self._rest_mm
         self.way_mm = self.spread_mm = 0.0
+
+    @property
+    def newest_growth(self) -> float | None:
+        """``growth`` in the newest frame alone; not every frame is asked for it."""
+        if self._rest_volume <= 0:
+            return None
+        change = self._newest_mm - self._rest_mm
+        return self._measured(self._newest_mm - self._drift(change))[0] / self._rest_volume
 
     def renew(self) -> None:
         """Begin mean and way anew: the force is about to change."""
@@ -82,15 +90,13 @@ class HeldIndentation:
         cells = self._grid.cells_of(field.positions_mm)
         weight = max(HEIGHT_MEMORY, 1.0 / self._count)
         self._height_mm[cells] += weight * (field.displacement_mm[:, 2] - self._height_mm[cells])
-        newest_mm = self._height_mm.copy()
-        newest_mm[cells] = field.displacement_mm[:, 2]
-        newest_volume, _ = self._measured(newest_mm - self._drift(newest_mm - self._rest_mm))
+        self._newest_mm = self._height_mm.copy()
+        self._newest_mm[cells] = field.displacement_mm[:, 2]
         change = self._height_mm - self._rest_mm
         volume, place_mm = self._measured(self._height_mm - self._drift(change))
         self.place_mm = place_mm
         if self._rest_volume > 0:
             self.growth = volume / self._rest_volume
-            self.newest_growth = newest_volume / self._rest_volume
         if self._from_mm is not None and place_mm is not None:
             self.way_mm = math.dist(self._from_mm, place_mm)
             self.spread_mm = self._spread(place_mm, volume)
