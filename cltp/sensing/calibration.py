@@ -32,6 +32,10 @@ SHIPPED_SHA256 = {
 }
 """SHA-256 of the shipped calibrations: a damaged one would give wrong heights in silence."""
 
+WITHOUT_DOTS = {"gelsight_mini_markers": "gelsight_mini"}
+"""Sensors whose gel has dots, and those of the same camera and lamps without: their calibrations
+are the same."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Calibration:
@@ -87,10 +91,11 @@ def default_calibration(sensor: SensorSpec) -> Path:
     Raises:
         TouchError: None ships for this model, or the file is not the one that shipped.
     """
-    path = Path(__file__).parent / "calibrations" / f"{sensor.name}.safetensors"
-    if sensor.name not in SHIPPED_SHA256 or not path.is_file():
+    name = WITHOUT_DOTS.get(sensor.name, sensor.name)
+    path = Path(__file__).parent / "calibrations" / f"{name}.safetensors"
+    if name not in SHIPPED_SHA256 or not path.is_file():
         raise TouchError(f"no calibration ships for {sensor.name}; make one and give its file")
-    if hashlib.sha256(path.read_bytes()).hexdigest() != SHIPPED_SHA256[sensor.name]:
+    if hashlib.sha256(path.read_bytes()).hexdigest() != SHIPPED_SHA256[name]:
         raise TouchError(f"{path} is damaged: it is not the file that shipped; install again")
     return path
 
@@ -153,7 +158,7 @@ def _calibration(
         value = record[name]
         if type(value).__name__ != kind and not (kind == "float" and type(value) is int):
             raise TouchError(f"calibration: {name} must be {kind}, got {value!r}")
-    if record["sensor"] != sensor.name:
+    if record["sensor"] != WITHOUT_DOTS.get(sensor.name, sensor.name):
         raise TouchError(
             f"calibration of a {record['sensor']}, expected {sensor.name}; name the right file"
         )

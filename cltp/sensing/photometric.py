@@ -19,7 +19,7 @@ Not here: training the network (``cltp.train.photometric``), its file
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -117,6 +117,24 @@ class Photometer:
             TouchError: The background is not a frame of this sensor.
         """
         return Photometer(self._net, background, self.sensor)
+
+    def coarser(self, factor: int, background: Frame) -> Photometer:
+        """The photometer of the same unit for frames of fewer, larger pixels.
+
+        Args:
+            factor: Edge of a large pixel, in those of the sensor.
+            background: Frame of the untouched gel in large pixels.
+
+        Raises:
+            TouchError: The background has not this many pixels.
+        """
+        sensor = replace(
+            self.sensor,
+            columns=self.sensor.columns // factor,
+            rows=self.sensor.rows // factor,
+            mm_per_px=self.sensor.mm_per_px * factor,
+        )
+        return Photometer(self._net, background, sensor)
 
     def check_background(self, frame: Frame) -> FloatArray:
         """Check that a frame belongs to the background.

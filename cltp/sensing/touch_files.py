@@ -142,7 +142,7 @@ def _frame_heights(
     path: Path, sensor: SensorSpec, background: Path | None, calibration: Path | None
 ) -> NDArray[np.float32]:
     from cltp.sensing.calibration import default_calibration, load_calibration
-    from cltp.sensing.photometric import Photometer
+    from cltp.sensing.marker_field import heights_of_frame
 
     frame = read_frame(path, sensor)
     if background is None:
@@ -152,7 +152,7 @@ def _frame_heights(
         )
     net = load_calibration(calibration or default_calibration(sensor), sensor).net
     with _path_in_errors(path):
-        return Photometer(net, read_frame(background, sensor), sensor).heights(frame)
+        return heights_of_frame(frame, read_frame(background, sensor), net, sensor)
 
 
 def _cloud_of(array: NDArray[np.float64], sensor: SensorSpec) -> TactileCloud:

@@ -14,8 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cltp.errors import TouchError
-from cltp.sensing.calibration import default_calibration, load_calibration
+from cltp.sensing.calibration import WITHOUT_DOTS, default_calibration, load_calibration
 from cltp.sensing.frames import FRAME_SUFFIXES, Frame, read_frame
+from cltp.sensing.marker_field import without_dots
 from cltp.sensing.photometric import Photometer
 from cltp.tactile.sensors import SensorSpec, sensor_named
 from tacgrasp.drivers.frame_folder import BACKGROUND, list_recorded
@@ -43,7 +44,7 @@ def read_ball_frames(
 
     Args:
         folder: Folder of the frames.
-        sensor: Sensor of the frames.
+        sensor: Sensor of the frames; the dots of one with dots are painted over.
         background: Frame of the untouched gel; None is ``background.png`` in the folder.
 
     Raises:
@@ -58,10 +59,12 @@ def read_ball_frames(
             "it: name it with --background"
         )
     paths = list_recorded(folder, FRAME_SUFFIXES, content="frames", excluded=[untouched])
+    frames = [read_frame(path, sensor) for path in paths]
+    empty = read_frame(untouched, sensor)
+    if sensor.name in WITHOUT_DOTS:
+        frames, empty = without_dots(frames, empty, sensor)
     return BallFrames(
-        names=tuple(path.stem for path in paths),
-        frames=tuple(read_frame(path, sensor) for path in paths),
-        background=read_frame(untouched, sensor),
+        names=tuple(path.stem for path in paths), frames=tuple(frames), background=empty
     )
 
 

@@ -43,6 +43,7 @@ class CalibrateGelsightFlags:
         seed: Random seed of the training.
         presses: Number of presses to calibrate on, those that lie farthest from each other; the
             others are measured. All are calibrated on if omitted.
+        dots: Whether the gel has the 7 × 9 dots of gelsight_mini_markers; they are painted over.
     """
 
     balls: Path
@@ -54,6 +55,7 @@ class CalibrateGelsightFlags:
     date: str = ""
     seed: int = 0
     presses: int | None = None
+    dots: bool = False
 
 
 def main(argv: Sequence[str]) -> int:
@@ -74,7 +76,7 @@ def _gelsight_mini(flags: CalibrateGelsightFlags) -> None:
     check_ball_flags(flags.diameter_mm, flags.out)
     date = parse_date(flags.date).isoformat()
 
-    from cltp.sensing.calibration import Calibration, save_calibration
+    from cltp.sensing.calibration import WITHOUT_DOTS, Calibration, save_calibration
     from cltp.sensing.photometric import Photometer
     from cltp.tactile.sensors import sensor_named
     from cltp.train.photometric.calibrate import train_gradients
@@ -85,6 +87,8 @@ def _gelsight_mini(flags: CalibrateGelsightFlags) -> None:
     from tacgrasp.console import make_console
 
     sensor, console = sensor_named("gelsight_mini"), make_console()
+    if flags.dots:
+        sensor = sensor_named("gelsight_mini_markers")
     balls = read_ball_frames(flags.balls, sensor, flags.background)
     others = None
     if flags.presses is not None:
@@ -105,7 +109,7 @@ def _gelsight_mini(flags: CalibrateGelsightFlags) -> None:
         flags.out,
         Calibration(
             net=trained.net,
-            sensor=sensor.name,
+            sensor=WITHOUT_DOTS.get(sensor.name, sensor.name),
             unit=flags.unit,
             date=date,
             ball_diameter_mm=flags.diameter_mm,

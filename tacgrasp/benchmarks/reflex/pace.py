@@ -55,7 +55,7 @@ def measure_pace(sensor_name: str, seed: int, seconds: float) -> Pace:
     """
     drawn = draw_load(seed, sensor_name)
     frames = list(noisy_frames(drawn, seed))
-    with _model_beside() as decisions:
+    with model_beside() as decisions:
         before = decisions.value
         pace = _paced(drawn, frames, seconds)
         return Pace(
@@ -87,7 +87,7 @@ def _paced(drawn: DrawnLoad, frames: list[ShearField], seconds: float) -> Pace:
 
 
 @contextmanager
-def _model_beside() -> Iterator[multiprocessing.sharedctypes.Synchronized[int]]:
+def model_beside() -> Iterator[multiprocessing.sharedctypes.Synchronized[int]]:
     """A process in which the shipped language model decides again and again; its count."""
     context = multiprocessing.get_context("spawn")
     ending, decisions = context.Event(), context.Value("i", 0)

@@ -15,10 +15,12 @@ from typing import Any
 import numpy as np
 from rich.console import Console
 
+from cltp.sensing.calibration import WITHOUT_DOTS
 from cltp.tactile.sensors import sensor_named
 from tacgrasp.base.errors import UsageError
 from tacgrasp.benchmarks.figures import number_table
 from tacgrasp.benchmarks.loop.strawberry import wilson
+from tacgrasp.benchmarks.reflex.images import ImageResult, measure_images
 from tacgrasp.benchmarks.reflex.loads import LoadResult, run_seed
 from tacgrasp.benchmarks.reflex.pace import Pace, measure_pace
 from tacgrasp.benchmarks.reflex.wire import WireResult, run_wire
@@ -32,6 +34,12 @@ PACE_S, QUICK_PACE_S = 20.0, 4.0
 SENSORS = ("taxels", "gelsight_mini_markers")
 
 COMMAND_MS, RECALL, PRECISION = 10.0, 0.95, 0.99
+
+IMAGE_MS = 15.0
+"""Largest image_to_markers_ms.p99."""
+
+IMAGE_LOADS, QUICK_IMAGE_LOADS = 20, 2
+"""Loads whose images are read."""
 
 WIRE_MS = 45.0
 """Largest wire_slip_to_command_ms.p99: that of taxels without a wire, and a gripper's poll."""
@@ -65,8 +73,13 @@ def run(settings: ReflexSettings) -> bool:
         raise UsageError("no load could be drawn; take more --episodes")
     with working("timing the reflex beside a language model"):
         pace = measure_pace(settings.sensor, seeds[0], QUICK_PACE_S if settings.quick else PACE_S)
+    images = None
+    if settings.sensor in WITHOUT_DOTS:
+        count = QUICK_IMAGE_LOADS if settings.quick else IMAGE_LOADS
+        with working("reading images beside a language model"):
+            images = measure_images(settings.sensor, seeds[:count])
     wire = _through_wire(console, settings.wire_seeds)
-    figures = summary(settings.sensor, results, pace, wire)
+    figures = summary(settings.sensor, results, pace, wire, images)
     _print(console, settings, figures)
     store.write(figures)
     return bool(figures["keeps_limits"])
@@ -85,6 +98,7 @@ def summary(
     results: Sequence[LoadResult],
     pace: Pace,
     wire: Sequence[WireResult] = (),
+    images: ImageResult | None = None,
 ) -> dict[str, Any]:
     """All figures of a sensor; quantiles of nothing are None."""
     command = _quantiles(pace.command_ms)
@@ -109,6 +123,7 @@ def summary(
         "by_noise": by_noise(results),
         "kept": kept(results),
         **wire_figures(wire, results),
+        **image_figures(images or ImageResult()),
     }
     figures["keeps_limits"] = _keeps(sensor_name, figures)
     return figures
@@ -193,6 +208,22 @@ def wire_figures(wire: Sequence[WireResult], results: Sequence[LoadResult]) -> d
     }
 
 
+def image_figures(images: ImageResult) -> dict[str, Any]:
+    """Times from an image to its markers, and how far off these are."""
+    return {
+        "image_to_markers_ms": _quantiles(images.ms),
+        "marker_error_um": {
+            "along": _root_mean_square(images.along_um),
+            "depth": _root_mean_square(images.depth_um),
+        },
+        "markers_found": float(np.mean(images.found)) if images.found else None,
+    }
+
+
+def _root_mean_square(values: Sequence[float]) -> float | None:
+    return float(np.sqrt(np.mean(np.square(values)))) if len(values) else None
+
+
 def _quantiles(values: Sequence[float]) -> dict[str, float | None]:
     if not len(values):
         return {"p50": None, "p99": None}
@@ -214,7 +245,9 @@ def _keeps(sensor_name: str, figures: dict[str, Any]) -> bool:
         return False
     is_fast = command <= COMMAND_MS and delay <= delay_limit_ms(sensor_name)
     wire = figures["wire_slip_to_command_ms"]["p99"]
+    image = figures["image_to_markers_ms"]["p99"]
     is_fast = is_fast and (wire is None or wire <= WIRE_MS)
+    is_fast = is_fast and (image is None or image <= IMAGE_MS)
     return bool(is_fast and recall >= RECALL and precision >= PRECISION)
 
 
@@ -239,8 +272,11 @@ def _print(console: Console, settings: ReflexSettings, figures: dict[str, Any]) 
         "command_ms": COMMAND_MS,
         "slip_to_command_ms": delay_limit_ms(settings.sensor),
         "wire_slip_to_command_ms": WIRE_MS,
+        "image_to_markers_ms": IMAGE_MS,
     }
     names = ["rate_hz", "command_ms", "late_ms", "slip_to_command_ms"]
+    if figures["markers_found"] is not None:
+        names.append("image_to_markers_ms")
     if figures["wire_loads"]:
         names += [f"wire_{each}_ms" for each in ("slip_to_command", "without", "command", "step")]
     for name in names:
@@ -253,6 +289,13 @@ def _print(console: Console, settings: ReflexSettings, figures: dict[str, Any]) 
             f"{figures['wire_blind']} moments without a reading; wire_without_ms: the same loads "
             "without a wire; wire_command_ms: from a frame to the registers; wire_step_ms: the "
             "longest step of each emulated body"
+        )
+    if figures["markers_found"] is not None:
+        error = figures["marker_error_um"]
+        console.print(
+            f"images: {100 * figures['markers_found']:.1f} % of the points read; displacement off "
+            f"by {error['along']:.1f} µm along the gel, {error['depth']:.1f} µm into it (root mean "
+            "square)"
         )
     became = figures["kept"]
     console.print(

@@ -44,10 +44,11 @@ def connect_gelsight(
     Calibration and background are checked first: nothing is opened with a wrong one.
 
     Raises:
-        TouchError: Calibration or background is missing, of another unit or too old; the camera or
-            recording is missing, can't be opened, or gives no frame.
+        TouchError: Calibration or background is missing, of another unit or too old; the background
+            shows no dots where the settings say so; the camera or recording is missing, can't be
+            opened, or gives no frame.
     """
-    sensor = sensor_named("gelsight_mini")
+    sensor = sensor_named(settings.sensor)
     calibration, background = load_unit_files(settings, now())
     scale = force_scale_of(settings, lambda: now().date())
     photometer = Photometer(calibration.net, background.frame, sensor)
@@ -69,7 +70,7 @@ def load_unit_files(
     Raises:
         TouchError: A file is missing, damaged, of another unit, or, for a camera, too old.
     """
-    sensor = sensor_named("gelsight_mini")
+    sensor = sensor_named(settings.sensor)
     if settings.calibration == "shipped":
         calibration = load_calibration(default_calibration(sensor), sensor)
     else:
@@ -104,7 +105,7 @@ def take_background(
     Raises:
         TouchError: The source can't be read, or the picture isn't still.
     """
-    sensor = sensor_named("gelsight_mini")
+    sensor = sensor_named(settings.sensor)
     open_source = partial(opener, settings, sensor)
     if settings.is_camera:
         frames = _camera_frames(settings, open_source, num_frames)
@@ -185,13 +186,15 @@ def _read_finding(sensor: GelSightMini, settings: GelSightSettings) -> Finding:
         sensor.expect_untouched()
     except TouchError as error:
         return _finding("reads", False, str(error), "correct the error, then check again")
-    counts = sensor.counts()
+    counts, shear = sensor.counts(), sensor.last_shear()
     too_many_dropped = counts is not None and counts.dropped > 0.05 * counts.frames + 1
     rate = "" if counts is None else (
         f"; {counts.frames} frames, {counts.dropped} dropped, {counts.repeated} repeated, every "
         f"{counts.interval_ms:.0f} ms"
     )  # fmt: skip
     detail = f"p50 {p50:.0f}, p99 {p99:.0f} ms{rate}"
+    if shear is not None:
+        detail += f"; shear at {len(shear.positions_mm)} points"
     advice = "plug it into a USB port of its own"
     return _finding("fresh cloud", not too_many_dropped, detail, advice)
 

@@ -1,6 +1,7 @@
 """A connected GelSight Mini: frames in, clouds out by ``cltp.sensing.photometric``.
 
-A read takes the first frame whose exposure began after the call.
+A read takes the first frame whose exposure began after the call. A gel with dots gives shear fields
+too, by ``cltp.sensing.marker_field``.
 """
 
 from __future__ import annotations
@@ -11,11 +12,15 @@ from collections.abc import Callable
 import numpy as np
 
 from cltp.errors import TouchError
+from cltp.sensing.calibration import WITHOUT_DOTS
 from cltp.sensing.frames import Frame
-from cltp.sensing.photometric import Photometer
+from cltp.sensing.marker_dots import Dots, mean_dots
+from cltp.sensing.marker_field import MarkerReader
+from cltp.sensing.photometric import FloatArray, Photometer
 from cltp.tactile.cloud import TactileCloud, cloud_of_pixels
 from cltp.tactile.force_scale import UNCALIBRATED, ForceScale
 from cltp.tactile.sensors import SensorSpec
+from cltp.tactile.shear.field import ShearField
 from tacgrasp.drivers.gelsight.background import check_still, mismatch
 from tacgrasp.drivers.gelsight.cameras import FrameSource, frame_problem
 from tacgrasp.drivers.gelsight.capture_thread import CapturedFrame, CaptureThread, FrameCounts
@@ -25,6 +30,10 @@ from tacgrasp.drivers.stamps import real_stamp
 REFERENCE_FRAMES = 5
 """Frames that a reference is the mean of. Our choice: its noise is less than half that of a frame,
 and a camera of 25 frames a second gives them in 0.3 s."""
+
+FOLLOWED_S = 0.2
+"""Age up to which the dots of a frame are where those of a later one are looked for [s]. Our
+choice: five frames, in which they move by less than half of their pitch."""
 
 
 class GelSightMini:
@@ -58,6 +67,12 @@ class GelSightMini:
         self._settings, self._background = settings, background
         self._stored_photometer = self._photometer = photometer
         self._force_scale = force_scale
+        self._stored_markers = self._markers = (
+            self._marker_reader(background) if self.spec.name in WITHOUT_DOTS else None
+        )
+        self._followed: tuple[CapturedFrame, Dots] | None = None
+        self._newest: tuple[CapturedFrame, ShearField] | None = None
+        self._last_shear: ShearField | None = None
         self._disconnected = False
         self._last_frame: Frame | None = None
         self._source: FrameSource | None = None
@@ -101,19 +116,67 @@ class GelSightMini:
         captured = self._fresh_frame()
         self._last_frame = captured.frame
         try:
-            heights = self._photometer.heights(captured.frame)
+            seen = [self._seen(captured)]
             num_frames = frames if self._settings.is_camera else 1
             for _ in range(num_frames - 1):
                 captured = self._frame_after(captured)
-                heights = heights + self._photometer.heights(captured.frame)
+                seen.append(self._seen(captured))
+            heights = np.mean([each for each, _ in seen], axis=0)
+            if self._markers is not None:
+                dots = mean_dots([each for _, each in seen if each is not None])
+                self._last_shear = self._markers.field(dots, heights, stamp=captured.stamp)
             return cloud_of_pixels(
-                heights / num_frames,
-                self.spec,
-                stamp=captured.stamp,
-                force_scale=self._force_scale,
+                heights, self.spec, stamp=captured.stamp, force_scale=self._force_scale
             )
         except TouchError as error:
             raise TouchError(f"{self._settings.source}: {error}") from None
+
+    def _seen(self, captured: CapturedFrame) -> tuple[FloatArray, Dots | None]:
+        """Heights of a frame, and its dots where the gel has any."""
+        if self._markers is None:
+            return self._photometer.heights(captured.frame), None
+        dots = self._dots(captured, self._markers)
+        return self._markers.heights(captured.frame, dots), dots
+
+    def _dots(self, captured: CapturedFrame, markers: MarkerReader) -> Dots:
+        followed = self._followed
+        before = None
+        if followed is not None:
+            since_s = captured.stamp.monotonic_s - followed[0].stamp.monotonic_s
+            before = followed[1] if abs(since_s) < FOLLOWED_S else None
+        dots = markers.follow(captured.frame, before)
+        self._followed = captured, dots
+        return dots
+
+    def last_shear(self) -> ShearField | None:
+        """The shear field of the frames that the last cloud came from; None of a gel without dots.
+
+        Of a recording, relative to its background.
+        """
+        return self._last_shear
+
+    def newest_shear(self) -> ShearField | None:
+        """The shear field of the newest frame, at once; the same object while none is newer.
+
+        None of a gel without dots, and of a recording that gives one image for each read.
+
+        Raises:
+            TouchError: As ``read``, but for the wait.
+        """
+        thread, markers = self._thread, self._markers
+        captured = None if thread is None else thread.latest.newest()
+        if markers is None or captured is None:
+            return None
+        self._check(captured)
+        if self._newest is None or self._newest[0] is not captured:
+            try:
+                dots = self._dots(captured, markers)
+                heights = markers.coarse_heights(captured.frame, dots)
+                field = markers.field(dots, heights, stamp=captured.stamp)
+            except TouchError as error:
+                raise TouchError(f"{self._settings.source}: {error}") from None
+            self._newest = captured, field
+        return self._newest[1]
 
     def last_frame(self) -> Frame | None:
         """The frame that the last cloud was computed from; None before the first read."""
@@ -140,6 +203,9 @@ class GelSightMini:
             check_still(frames)
             mean = np.rint(np.mean(frames, axis=0)).astype(np.uint8)
             self._stored_photometer.check_background(mean)
+            if self._stored_markers is not None:
+                self._markers = self._marker_reader(mean)
+                self._followed = self._newest = None
             self._photometer = self._stored_photometer.with_background(mean)
         except TouchError as error:
             raise TouchError(f"{self._settings.source}: {error}") from None
@@ -155,7 +221,10 @@ class GelSightMini:
         """
         if not self._settings.is_camera:
             return
-        if reason := mismatch(self._fresh_frame().frame, self._background):
+        frame, background = self._fresh_frame().frame, self._background
+        if self._stored_markers is not None:  # dots may move by a pixel: their edges are left out
+            frame, background = map(self._stored_markers.without_dots, (frame, background))
+        if reason := mismatch(frame, background):
             raise TouchError(f"{self._settings.source}: {reason}")
 
     def check_alive(self) -> str:
@@ -174,6 +243,9 @@ class GelSightMini:
             self._thread.end(f"{self._settings.source}: disconnected; connect it again to read")
         if self._source is not None:
             self._source.close()
+
+    def _marker_reader(self, background: Frame) -> MarkerReader:
+        return MarkerReader(self._stored_photometer, background, self.spec)
 
     def _fresh_frame(self) -> CapturedFrame:
         called_s = time.monotonic()

@@ -16,6 +16,7 @@ class GelSightSettings(SensorUnitSettings):
 
     Attributes:
         kind: Name of the driver.
+        sensor: ``gelsight_mini_markers`` for the gel with 7 × 9 dots, which shows shear.
         device: Camera: its path under /dev/v4l/by-id, which is stable, or its index.
         video: Video file to play instead of a camera.
         images: Folder of images to play instead, in counting order, without its background.png.
@@ -35,6 +36,7 @@ class GelSightSettings(SensorUnitSettings):
     """
 
     kind: Literal["gelsight_mini"] = "gelsight_mini"
+    sensor: Literal["gelsight_mini", "gelsight_mini_markers"] = "gelsight_mini"
     device: int | str | None = None
     video: Path | None = None
     images: Path | None = None
@@ -63,7 +65,7 @@ class GelSightSettings(SensorUnitSettings):
 
     @property
     def sensor_name(self) -> str:
-        return "gelsight_mini"
+        return self.sensor
 
     @property
     def is_camera(self) -> bool:

@@ -23,6 +23,7 @@ from tacgrasp.drivers.gelsight.connect import check, connect_gelsight, take_back
 from tacgrasp.drivers.gelsight.settings import GelSightSettings
 from tacgrasp.rig.protocols import CameraSensor
 from tacgrasp.testing import SensorContract
+from tests.fakes.camera import GREY, Camera
 from tests.fakes.waiting import is_alive, poll
 from tests.paths import SHARED_DATA
 
@@ -30,9 +31,7 @@ SENSOR = SENSORS["gelsight_mini"]
 BALLS = SHARED_DATA / "gelsight_mini_balls"
 LAMPS = np.array([[80.0, 0.0], [-35.0, 60.0], [-45.0, -70.0]])
 NOW = datetime.datetime(2026, 2, 1, 12, tzinfo=datetime.UTC)
-GREY = np.full((240, 320, 3), 120, dtype=np.uint8)
 ROW, COLUMN = np.mgrid[0:240, 0:320]
-NOISE = np.random.default_rng(0).integers(-1, 2, (4, 240, 320, 3))
 
 
 def pressed(depth_mm, x_mm=0.0, y_mm=0.0):
@@ -42,30 +41,6 @@ def pressed(depth_mm, x_mm=0.0, y_mm=0.0):
     root = np.sqrt(np.clip(9.0 - x**2 - down**2, 1e-3, None))
     slopes = -np.stack([x, down], axis=-1) / root[..., None] * (root > 3.0 - depth_mm)[..., None]
     return (GREY + np.rint(slopes @ LAMPS.T)).clip(0, 255).astype(np.uint8)
-
-
-class Camera:
-    """Frames 60 times a second, noisy, of what a test puts before it; can fail in many ways."""
-
-    def __init__(self, picture=GREY):
-        self.picture, self.failure, self.frozen, self.stalled = picture, "", False, False
-        self.frames, self.opened, self.closed = 0, 0, False
-
-    def __call__(self, settings, sensor):
-        self.opened += 1
-        return self
-
-    def next_frame(self):
-        time.sleep(1 / 60)
-        while self.stalled and not self.failure:
-            time.sleep(0.01)
-        if self.failure:
-            raise TouchError(self.failure)
-        self.frames += not self.frozen
-        return (self.picture + NOISE[self.frames % 4]).clip(0, 255).astype(np.uint8)
-
-    def close(self):
-        self.closed = True
 
 
 @pytest.fixture
