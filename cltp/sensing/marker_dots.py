@@ -25,12 +25,10 @@ from cltp.tactile.cloud import FloatArray
 from cltp.tactile.sensors import SensorSpec
 
 RADII_PX = (2.0, 12.0)
-"""Smallest and largest radius of a dot [px]. Our choice: what fits a lattice of 35
-px."""
+"""Smallest and largest radius of a dot [px]. Our choice: what fits a lattice of 35 px."""
 
 DARKER = 0.25
-"""Part of the light around it that a dot lacks at least. Our choice: a shadow lacks
-less."""
+"""Part of the light around it that a dot lacks at least. Our choice: a shadow lacks less."""
 
 FOUND = 0.5
 """Darkness of a dot in a frame over that in the untouched gel, from which it counts."""
@@ -93,7 +91,8 @@ class DotTracker:
         rows, columns = sensor.shear_grid
         light = _light(check_frame(background, sensor, "the background"))
         places, self.radius_px = _lattice(light, sensor.name, rows, columns)
-        self._pitch_px = min(sensor.columns / columns, sensor.rows / rows)
+        between_px, _ = KDTree(places).query(places, k=2)
+        self._pitch_px = float(np.median(between_px[:, 1]))
         self._small, self._large = _squares(self.radius_px, self._pitch_px)
         darkness = self._darkness(light)
         at = np.clip(np.rint(places).astype(np.intp), 0, (sensor.columns - 1, sensor.rows - 1))

@@ -4,6 +4,7 @@ import dataclasses
 
 import numpy as np
 import pytest
+from scipy import ndimage
 
 from cltp.errors import TouchError
 from cltp.sensing.marker_dots import DotTracker, mean_dots
@@ -73,6 +74,33 @@ def test_the_first_frame_shifted_by_whole_pixels_is_exact():
     inner = dots.found & (np.abs(tracker.untouched.places_px - (160, 120)) < (120, 80)).all(axis=1)
     assert inner.sum() > 30
     assert np.abs(moved[inner] - (-5, 3)).max() < 0.02
+
+
+@pytest.mark.parametrize("shape", ["punch", "bumps", "wire"])
+def test_steep_walls_cost_dots_and_make_none_wrong(shape):
+    gel, rng = drawn(8)
+    tracker = DotTracker(gel.frame(FLAT, STILL, rng), SENSOR)
+    if shape == "punch":
+        height = 0.9 * ((np.abs(X) < 2.5) & (np.abs(Y) < 2.5))
+    elif shape == "wire":
+        height = 0.5 * (np.abs(Y - 0.2 * X) < 0.15)
+    else:
+        far = (np.mod(X, 2.0) - 1) ** 2 + (np.mod(Y, 2.0) - 1) ** 2
+        height = np.clip(0.6 - 2.5 * far, 0.0, None)
+    _, along = press(rng, depth_mm=0.0, shift_mm=0.4)
+    dots = tracker.follow(gel.frame(ndimage.gaussian_filter(height, 1.5), along, rng))
+    assert dots.found.mean() > 0.6
+    assert np.abs(errors_px(gel, tracker, dots, along)[dots.found]).max() < 1.0
+
+
+def test_a_lattice_that_fills_less_of_the_picture_is_found():
+    gel, rng = drawn(9)
+    small = dataclasses.replace(gel, dots_mm=0.75 * gel.dots_mm + (0.8, -0.5))
+    tracker = DotTracker(small.frame(FLAT, STILL, rng), SENSOR)
+    height, along = press(rng, depth_mm=0.3, shift_mm=0.4)
+    dots = tracker.follow(small.frame(height, along, rng))
+    assert dots.found.all()
+    assert np.abs(errors_px(small, tracker, dots, along)).max() < 0.6
 
 
 def test_dirt_and_worn_off_dots_are_none_of_the_lattice():
