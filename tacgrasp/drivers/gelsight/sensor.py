@@ -39,6 +39,8 @@ choice: five frames, in which they move by less than half of their pitch."""
 class GelSightMini:
     """A connected GelSight Mini, or a recording of one; a ``rig.protocols.WatchedSensor``.
 
+    Of a gel with dots it is a ``StreamingShearSensor`` that has something to stream.
+
     A read raises ``TouchError`` when the camera is unplugged or disconnected, the recording has
     ended, no frame was exposed after the call within the time-out, or the frame shows no gel
     (black, over-exposed) or belongs to another background.
@@ -51,8 +53,8 @@ class GelSightMini:
         force_scale: Force scale of the unit.
 
     Raises:
-        TouchError: A recording can't be opened. A camera is opened in its thread, and
-            ``wait_until_alive`` raises its error.
+        TouchError: The background lacks the dots that the settings promise, or a recording can't be
+            opened. A camera is opened in its thread, and ``wait_until_alive`` raises its error.
     """
 
     def __init__(
@@ -71,7 +73,7 @@ class GelSightMini:
             self._marker_reader(background) if self.spec.name in WITHOUT_DOTS else None
         )
         self._followed: tuple[CapturedFrame, Dots] | None = None
-        self._newest: tuple[CapturedFrame, ShearField] | None = None
+        self._newest: tuple[CapturedFrame, MarkerReader, ShearField] | None = None
         self._last_shear: ShearField | None = None
         self._disconnected = False
         self._last_frame: Frame | None = None
@@ -141,7 +143,7 @@ class GelSightMini:
     def _dots(self, captured: CapturedFrame, markers: MarkerReader) -> Dots:
         followed = self._followed
         before = None
-        if followed is not None:
+        if followed is not None and self._thread is not None:  # images may be of many contacts
             since_s = captured.stamp.monotonic_s - followed[0].stamp.monotonic_s
             before = followed[1] if abs(since_s) < FOLLOWED_S else None
         dots = markers.follow(captured.frame, before)
@@ -168,15 +170,16 @@ class GelSightMini:
         if markers is None or captured is None:
             return None
         self._check(captured)
-        if self._newest is None or self._newest[0] is not captured:
+        newest = self._newest  # a reference may be taken meanwhile, in another thread
+        if newest is None or newest[0] is not captured or newest[1] is not markers:
             try:
                 dots = self._dots(captured, markers)
                 heights = markers.coarse_heights(captured.frame, dots)
                 field = markers.field(dots, heights, stamp=captured.stamp)
             except TouchError as error:
                 raise TouchError(f"{self._settings.source}: {error}") from None
-            self._newest = captured, field
-        return self._newest[1]
+            self._newest = newest = captured, markers, field
+        return newest[2]
 
     def last_frame(self) -> Frame | None:
         """The frame that the last cloud was computed from; None before the first read."""
@@ -205,7 +208,7 @@ class GelSightMini:
             self._stored_photometer.check_background(mean)
             if self._stored_markers is not None:
                 self._markers = self._marker_reader(mean)
-                self._followed = self._newest = None
+                self._followed = None
             self._photometer = self._stored_photometer.with_background(mean)
         except TouchError as error:
             raise TouchError(f"{self._settings.source}: {error}") from None

@@ -1,6 +1,7 @@
 """A GelSight Mini whose gel has dots: clouds without them, and shear fields, fresh and newest."""
 
 import datetime
+import threading
 import time
 
 import numpy as np
@@ -132,6 +133,29 @@ def test_shear_is_relative_to_the_last_reference(sensor, camera):
     sensor.take_reference()
     sensor.read()
     assert np.abs(sensor.last_shear().displacement_mm).max() < 0.02
+
+
+def test_a_reflex_reads_the_newest_field_while_others_read_and_take_references(sensor, camera):
+    camera.picture = picture(along_mm=(0.1, 0.0))
+    ending, problems = threading.Event(), []
+
+    def reflex():
+        while not ending.is_set():
+            try:
+                sensor.newest_shear()
+            except Exception as error:  # whatever it is, the test fails with it
+                problems.append(error)
+                return
+
+    thread = threading.Thread(target=reflex)
+    thread.start()
+    for _ in range(3):
+        sensor.take_reference()
+        sensor.read(frames=2)
+    ending.set()
+    thread.join()
+    assert not problems
+    assert np.abs(sensor.newest_shear().displacement_mm).max() < 0.03
 
 
 def test_dots_that_have_moved_a_little_are_no_touch(sensor, camera):
