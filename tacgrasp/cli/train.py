@@ -223,6 +223,7 @@ class TrainSlipFlags:
         units: Noisy units of each sensor that see a load.
         loads: Folder where the simulated loads are kept; those that are there are taken.
         seed: Random seed of the weights.
+        sensor: Sensor of the model: taxels or gelsight_mini_markers; both when not given.
     """
 
     out: Path
@@ -230,6 +231,7 @@ class TrainSlipFlags:
     units: int = 2
     loads: Path = Path("data/slip_loads")
     seed: int = 0
+    sensor: str | None = None
 
     def train(self) -> None:
         """Simulate, train and write."""
@@ -239,10 +241,18 @@ class TrainSlipFlags:
             raise UsageError(f"--out {self.out} is no folder")
         from tacgrasp.console import make_console
         from tacgrasp.training.slip import SlipRequest, train
+        from tacgrasp.training.slip_loads import SENSORS
 
+        if self.sensor is not None and self.sensor not in SENSORS:
+            raise UsageError(f"--sensor {self.sensor}: slip models are of {' and '.join(SENSORS)}")
         console = make_console()
         request = SlipRequest(
-            seeds=self.seeds, units=self.units, out=self.out, loads=self.loads, seed=self.seed
+            seeds=self.seeds,
+            units=self.units,
+            out=self.out,
+            loads=self.loads,
+            seed=self.seed,
+            sensors=SENSORS if self.sensor is None else (self.sensor,),
         )
         for name, model in train(request, console).items():
             path = self.out / f"slip_{name}.npz"

@@ -75,6 +75,7 @@ class SlipRequest:
         out: Folder of the models.
         loads: Folder of the simulated loads, which are kept there.
         seed: Random seed of the weights.
+        sensors: Names of the sensors whose models are trained.
     """
 
     seeds: int
@@ -82,6 +83,7 @@ class SlipRequest:
     out: Path
     loads: Path
     seed: int = 0
+    sensors: tuple[str, ...] = SENSORS
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -146,12 +148,13 @@ class SeenLoad:
         )
 
 
-def see_loads(units: int, path: Path) -> list[SeenLoad]:
-    """The loads of a block, seen by some drawn units of each sensor."""
+def see_loads(units: int, sensors: Sequence[str], path: Path) -> list[SeenLoad]:
+    """The loads of a block, seen by some drawn units of each of some sensors."""
     return [
         _seen(load, name, rng)
         for load in read_block(path)
         for k, name in enumerate(SENSORS)
+        if name in sensors
         for rng in [np.random.default_rng([load.seed, 31, list(Course).index(load.course), k])]
         for _ in range(units)
     ]
@@ -208,11 +211,13 @@ def train(request: SlipRequest, console: Console) -> dict[str, SlipModel]:
     paths = simulate(request.loads, range(FIRST_SEED, FIRST_SEED + request.seeds), console)
     with worker_pool() as pool, count_progress(console) as progress:
         results = progress.track(
-            pool.map(partial(see_loads, request.units), paths), len(paths), description="frames"
+            pool.map(partial(see_loads, request.units, request.sensors), paths),
+            len(paths),
+            description="frames",
         )
         seen = [each for some in results for each in some]
     models = {}
-    for name in SENSORS:
+    for name in request.sensors:
         models[name] = fit([each for each in seen if each.sensor == name], request.seed)
         write_model(request.out / f"slip_{name}.npz", models[name])
     return models

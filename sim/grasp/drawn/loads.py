@@ -53,8 +53,9 @@ OFFSET_MM = (3.0, 2.0)
 STEP_S = 0.01
 """Step of the dynamics [s]."""
 
-FOLLOWED_MM = 4.0
-"""Slide at which a load is no longer followed [mm]: the body is as good as lost."""
+GONE_S = 0.1
+"""Time for which a load is followed once the body is gone [s]. Our choice: two periods of a camera,
+and a reflex that takes its time; a sensor goes on giving frames of a gel that nothing touches."""
 
 _CARRY_STEPS = 15
 
@@ -208,8 +209,8 @@ class LoadStepper:
 
     @property
     def is_lost(self) -> bool:
-        """Whether the body is no longer worth following."""
-        return self.frame.state.dropped or self.frame.slipped_mm > FOLLOWED_MM
+        """Whether the body is no longer between the pads."""
+        return self.frame.state.dropped
 
     def step(self, dt_s: float, t_s: float, force_n: float) -> LoadFrame:
         """The body a time ``dt_s`` later [s], at ``t_s`` of the load [s], under a force [N]."""
@@ -233,7 +234,7 @@ def follow(
     quiet: int,
     force_n: Callable[[float], float] | None = None,
 ) -> Iterator[LoadFrame]:
-    """A load step by step, every ``STEP_S``; the last frame is that at which it is lost or over.
+    """A load step by step, every ``STEP_S``, until it is over or the body is gone for ``GONE_S``.
 
     Args:
         drawn: The load.
@@ -246,8 +247,10 @@ def follow(
     stepper = LoadStepper(drawn)
     for k in range(quiet):
         yield replace(stepper.frame, t_s=(k - quiet) * STEP_S)
-    for k in range(math.ceil(drawn.duration_s / STEP_S)):
-        t_s = (k + 1) * STEP_S
+    last, step = math.ceil(drawn.duration_s / STEP_S), 0
+    while step < last:
+        step += 1
+        was_lost, t_s = stepper.is_lost, step * STEP_S
         yield stepper.step(STEP_S, t_s, drawn.force_n if force_n is None else force_n(t_s))
-        if stepper.is_lost:
-            return
+        if stepper.is_lost and not was_lost:
+            last = step + round(GONE_S / STEP_S)

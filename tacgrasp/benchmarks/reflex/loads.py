@@ -50,6 +50,7 @@ class LoadResult:
         early: It did so while ``HELD_STICK`` stuck and had stuck.
         delay_ms: From the begin of the slide to the raise [ms]; negative before; None without both.
         slid_mm, slid_kept_mm: Slide at the end without and with the reflex [mm].
+        gone, gone_kept: The body left the grip, without and with the reflex.
         force_factor: Largest force with the reflex over the grip's.
         largest_ratio: Largest displacement over indentation, which a threshold of force alone sees.
         compute_ms: Durations of the reflex's computation in this process: median and largest [ms].
@@ -66,6 +67,8 @@ class LoadResult:
     delay_ms: float | None
     slid_mm: float
     slid_kept_mm: float
+    gone: bool
+    gone_kept: bool
     force_factor: float
     largest_ratio: float
     compute_ms: tuple[float, float]
@@ -168,6 +171,8 @@ def run_seed(sensor_name: str, seed: int) -> LoadResult | None:
         else 1e3 * (keeper.raised_s - begun_s),
         slid_mm=slid_mm,
         slid_kept_mm=kept.frames[-1].slipped_mm,
+        gone=alone.frames[-1].state.dropped,
+        gone_kept=kept.frames[-1].state.dropped,
         force_factor=kept.keeper.largest_n / drawn.force_n,
         largest_ratio=max(keeper.ratios, default=0.0),
         compute_ms=(float(np.median(keeper.times_ms)), max(keeper.times_ms)),

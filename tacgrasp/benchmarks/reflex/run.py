@@ -186,6 +186,8 @@ def kept(results: Sequence[LoadResult]) -> dict[str, Any]:
     return {
         "slipped_1_mm_alone": len(lost),
         "slipped_1_mm_with_reflex": sum(each.slid_kept_mm >= 1.0 for each in lost),
+        "gone_alone": sum(each.gone for each in results),
+        "gone_with_reflex": sum(each.gone_kept for each in results),
         "slide_mm_alone": _quantiles([each.slid_mm for each in lost]),
         "slide_mm_with_reflex": _quantiles([each.slid_kept_mm for each in lost]),
         "force_factor": _quantiles([each.force_factor for each in results]),
@@ -300,9 +302,10 @@ def _print(console: Console, settings: ReflexSettings, figures: dict[str, Any]) 
     became = figures["kept"]
     console.print(
         f"{became['slipped_1_mm_alone']} loads slip 1 mm or more when nothing is corrected, "
-        f"{became['slipped_1_mm_with_reflex']} of them with the reflex; largest force over the "
-        f"grip's {became['force_factor']['p50']:.2f} (median), {became['force_factor']['p99']:.2f} "
-        f"(99 %); {figures['language_model_decisions']} decisions of the language model beside"
+        f"{became['slipped_1_mm_with_reflex']} of them with the reflex; "
+        f"{became['gone_alone']} leave the grip, {became['gone_with_reflex']} with it; largest "
+        f"force over the grip's {became['force_factor']['p50']:.2f} (median), "
+        f"{became['force_factor']['p99']:.2f} (99 %); {figures['language_model_decisions']} decisions of the language model beside"
     )
 
 

@@ -87,7 +87,7 @@ def test_a_block_holds_loads_drags_and_changes_of_force(block):
 
 
 def test_a_load_is_seen_by_units_of_every_sensor(block):
-    seen = see_loads(2, block)
+    seen = see_loads(2, SENSORS, block)
     count = len(list(read_block(block)))
     assert [each.sensor for each in seen] == count * [
         SENSORS[0],

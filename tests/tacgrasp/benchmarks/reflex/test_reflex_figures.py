@@ -4,6 +4,7 @@ from types import SimpleNamespace
 
 import pytest
 
+from sim.grasp.world import DROPPED_MM
 from tacgrasp.benchmarks.reflex.loads import LoadResult, onset_s, run_seed
 from tacgrasp.benchmarks.reflex.pace import Pace
 from tacgrasp.benchmarks.reflex.run import (
@@ -32,6 +33,8 @@ def result(seed, *, slips, called, early=False, holds=None, delay_ms=None, ratio
         delay_ms=delay_ms,
         slid_mm=4.0 if slips else 0.0,
         slid_kept_mm=0.5 if called and slips else 4.0 if slips else 0.0,
+        gone=slips,
+        gone_kept=slips and not called,
         force_factor=1.2 if called else 1.0,
         largest_ratio=ratio,
         compute_ms=(0.5, 0.6),
@@ -78,6 +81,7 @@ def test_the_threshold_of_force_alone_is_the_best_there_is():
 def test_what_the_reflex_keeps_is_counted_on_the_loads_that_slip_by_a_millimetre():
     became = summary("taxels", RESULTS, PACE)["kept"]
     assert (became["slipped_1_mm_alone"], became["slipped_1_mm_with_reflex"]) == (4, 1)
+    assert (became["gone_alone"], became["gone_with_reflex"]) == (4, 1)
 
 
 def test_the_noisiest_third_comes_last():
@@ -109,7 +113,8 @@ def test_a_load_that_slips_and_one_that_holds():
     slipped, held = (run_seed("taxels", seed) for seed in (SLIPS, HOLDS))
     assert slipped.slips
     assert not slipped.holds
-    assert slipped.slid_kept_mm <= slipped.slid_mm
+    assert slipped.gone
+    assert min(slipped.slid_kept_mm, DROPPED_MM) <= min(slipped.slid_mm, DROPPED_MM)
     assert held.holds
     assert held.slid_mm == held.slid_kept_mm == 0
     assert held.delay_ms is None
