@@ -305,7 +305,8 @@ def _print(console: Console, settings: ReflexSettings, figures: dict[str, Any]) 
         f"{became['slipped_1_mm_with_reflex']} of them with the reflex; "
         f"{became['gone_alone']} leave the grip, {became['gone_with_reflex']} with it; largest "
         f"force over the grip's {became['force_factor']['p50']:.2f} (median), "
-        f"{became['force_factor']['p99']:.2f} (99 %); {figures['language_model_decisions']} decisions of the language model beside"
+        f"{became['force_factor']['p99']:.2f} (99 %); "
+        f"{figures['language_model_decisions']} decisions of the language model beside"
     )
 
 
