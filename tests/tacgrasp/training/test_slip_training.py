@@ -7,6 +7,7 @@ from rich.console import Console
 from cltp.errors import TouchError
 from cltp.tactile.shear.contact_shear import NUM_VALUES
 from cltp.tactile.shear.slip import SlipJudge, SlipModel
+from tacgrasp.__main__ import main
 from tacgrasp.training import slip_loads
 from tacgrasp.training.slip import SeenLoad, fit, see_loads
 from tacgrasp.training.slip_loads import BLOCK, FIRST_SEED, SENSORS, Course, read_block, simulate
@@ -100,6 +101,18 @@ def test_a_load_is_seen_by_units_of_every_sensor(block):
         assert np.isfinite(each.cues).all()
         assert each.steps[0] == 0 and each.steps[-1] < len(each.stick)
     assert seen[0].cues.shape != seen[1].cues.shape or (seen[0].cues != seen[1].cues).any()
+
+
+def test_one_sensor_is_seen_as_it_is_among_others(block):
+    both, alone = see_loads(1, SENSORS, block), see_loads(1, SENSORS[1:], block)
+    assert {each.sensor for each in alone} == {SENSORS[1]}
+    others = [each for each in both if each.sensor == SENSORS[1]]
+    assert all(np.array_equal(a.cues, b.cues) for a, b in zip(alone, others, strict=True))
+
+
+def test_a_model_of_a_sensor_without_shear_is_refused(tmp_path, capsys):
+    assert main(["train", "slip", "--out", str(tmp_path), "--sensor", "digit"]) != 0
+    assert "slip models are of taxels and gelsight_mini_markers" in capsys.readouterr().err
 
 
 def test_loads_that_are_there_are_not_simulated_again(block):
