@@ -1,6 +1,6 @@
 """Frames of a camera behind a gel with dots: a sheared, pressed surface under coloured lamps.
 
-Three lamps light the gel from its sides, so that a slope changes its colour; dots absorb all light,
+Three lamps light the gel from its sides, so that a slope changes its colour; dots absorb nearly all,
 and move with the surface. A crude picture: enough for what finds and follows dots, with errors
 that a real camera has.
 
