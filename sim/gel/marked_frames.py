@@ -1,8 +1,8 @@
 """Frames of a camera behind a gel with dots: a sheared, pressed surface under coloured lamps.
 
-Three lamps light the gel from its sides, so that a slope changes its colour; dots absorb nearly all,
-and move with the surface. A crude picture: enough for what finds and follows dots, with errors
-that a real camera has.
+Three lamps light the gel from its sides, so that a slope changes its colour; dots are dark, and
+move with the surface. A crude picture: enough for what finds and follows dots, with errors that a
+real camera has.
 
 Not here: what the dots of a sensor should measure (``sim.gel.shear.sensed``), the reading of frames
 (``cltp.sensing``).
