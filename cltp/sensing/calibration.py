@@ -37,6 +37,11 @@ WITHOUT_DOTS = {"gelsight_mini_markers": "gelsight_mini"}
 are the same."""
 
 
+def calibrated_as(sensor: SensorSpec) -> str:
+    """Name of the sensor whose calibrations fit this one: its own, or that without dots."""
+    return WITHOUT_DOTS.get(sensor.name, sensor.name)
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Calibration:
     """A trained network and its origin.
@@ -91,7 +96,7 @@ def default_calibration(sensor: SensorSpec) -> Path:
     Raises:
         TouchError: None ships for this model, or the file is not the one that shipped.
     """
-    name = WITHOUT_DOTS.get(sensor.name, sensor.name)
+    name = calibrated_as(sensor)
     path = Path(__file__).parent / "calibrations" / f"{name}.safetensors"
     if name not in SHIPPED_SHA256 or not path.is_file():
         raise TouchError(f"no calibration ships for {sensor.name}; make one and give its file")
@@ -158,7 +163,7 @@ def _calibration(
         value = record[name]
         if type(value).__name__ != kind and not (kind == "float" and type(value) is int):
             raise TouchError(f"calibration: {name} must be {kind}, got {value!r}")
-    if record["sensor"] != WITHOUT_DOTS.get(sensor.name, sensor.name):
+    if record["sensor"] != calibrated_as(sensor):
         raise TouchError(
             f"calibration of a {record['sensor']}, expected {sensor.name}; name the right file"
         )

@@ -124,12 +124,11 @@ def heights_of_frame(
     """Heights (rows, columns) [mm] of one frame of a gel, with dots or without.
 
     Raises:
-        TouchError: As ``Photometer`` and ``MarkerReader``.
+        TouchError: As ``Photometer`` and ``DotTracker``.
     """
-    photometer = Photometer(net, background, sensor)
-    if sensor.name not in WITHOUT_DOTS:
-        return photometer.heights(frame)
-    return MarkerReader(photometer, background, sensor).heights(frame)
+    if sensor.name in WITHOUT_DOTS:
+        (frame,), background = without_dots([frame], background, sensor)
+    return Photometer(net, background, sensor).heights(frame)
 
 
 def without_dots(

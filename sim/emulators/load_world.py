@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from cltp.tactile.shear.field import ShearField
 from cltp.tactile.shear.noise import ShearUnit
 from sim.grasp.devices import ADJUST_S
-from sim.grasp.drawn.loads import GONE_S, STEP_S, DrawnLoad, LoadFrame, LoadStepper
+from sim.grasp.drawn.loads import STEP_S, DrawnLoad, LoadFrame, LoadStepper
 
 
 class LoadWorld:
@@ -68,9 +68,8 @@ class LoadWorld:
             The body after each step, by the time at which it could first be seen.
         """
         stepper, self._began_s = self._stepper, self._clock()
-        frames, at_s, until_s = [stepper.frame], 0.0, self.drawn.duration_s
-        while at_s < until_s:
-            was_lost = stepper.is_lost
+        frames, at_s = [stepper.frame], 0.0
+        while at_s < stepper.ends_s:
             to_s = max(at_s + STEP_S, self._clock() - self._began_s)
             frame = stepper.step(to_s - at_s, to_s, self._force_at(self._began_s + to_s))
             seen = frame.field_of(self._sensor)
@@ -78,8 +77,6 @@ class LoadWorld:
             self._field = seen
             frames.append(replace(frame, t_s=self._clock() - self._began_s))
             at_s = to_s
-            if stepper.is_lost and not was_lost:
-                until_s = at_s + GONE_S
         return frames
 
     def height_mm(self) -> NDArray[np.float32]:

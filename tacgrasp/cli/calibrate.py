@@ -76,7 +76,7 @@ def _gelsight_mini(flags: CalibrateGelsightFlags) -> None:
     check_ball_flags(flags.diameter_mm, flags.out)
     date = parse_date(flags.date).isoformat()
 
-    from cltp.sensing.calibration import WITHOUT_DOTS, Calibration, save_calibration
+    from cltp.sensing.calibration import Calibration, calibrated_as, save_calibration
     from cltp.sensing.photometric import Photometer
     from cltp.tactile.sensors import sensor_named
     from cltp.train.photometric.calibrate import train_gradients
@@ -109,7 +109,7 @@ def _gelsight_mini(flags: CalibrateGelsightFlags) -> None:
         flags.out,
         Calibration(
             net=trained.net,
-            sensor=WITHOUT_DOTS.get(sensor.name, sensor.name),
+            sensor=calibrated_as(sensor),
             unit=flags.unit,
             date=date,
             ball_diameter_mm=flags.diameter_mm,

@@ -58,6 +58,7 @@ GONE_S = 0.1
 and a reflex that takes its time; a sensor goes on giving frames of a gel that nothing touches."""
 
 _CARRY_STEPS = 15
+_ROUNDING_S = 1e-9
 
 
 class LoadKind(StrEnum):
@@ -192,6 +193,7 @@ class LoadStepper:
 
     Attributes:
         frame: The body now; at time 0 before the load comes on.
+        ends_s: Time of the load at which it is over, or the body gone for ``GONE_S`` [s].
 
     Raises:
         ValueError: The pads don't reach the body.
@@ -206,15 +208,13 @@ class LoadStepper:
             state = self._holding.step(STEP_S, drawn.force_n, part * drawn.carried_n)
         self._before_mm = state.slipped_mm
         self.frame = self._frame(0.0, state, drawn.force_n)
-
-    @property
-    def is_lost(self) -> bool:
-        """Whether the body is no longer between the pads."""
-        return self.frame.state.dropped
+        self.ends_s = drawn.duration_s
 
     def step(self, dt_s: float, t_s: float, force_n: float) -> LoadFrame:
         """The body a time ``dt_s`` later [s], at ``t_s`` of the load [s], under a force [N]."""
         state = self._holding.step(dt_s, force_n, self._drawn.load_n(t_s))
+        if state.dropped and not self.frame.state.dropped:
+            self.ends_s = t_s + GONE_S
         self.frame = self._frame(t_s, state, force_n)
         return self.frame
 
@@ -247,10 +247,8 @@ def follow(
     stepper = LoadStepper(drawn)
     for k in range(quiet):
         yield replace(stepper.frame, t_s=(k - quiet) * STEP_S)
-    last, step = math.ceil(drawn.duration_s / STEP_S), 0
-    while step < last:
+    step = 0
+    while step * STEP_S < stepper.ends_s - _ROUNDING_S:
         step += 1
-        was_lost, t_s = stepper.is_lost, step * STEP_S
+        t_s = step * STEP_S
         yield stepper.step(STEP_S, t_s, drawn.force_n if force_n is None else force_n(t_s))
-        if stepper.is_lost and not was_lost:
-            last = step + round(GONE_S / STEP_S)
