@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from cltp.tactile.states import CLASSES
 from tacgrasp.pretraining.report.pages import PagePlot
 from tacgrasp.pretraining.report.paper_numbers import PAPER
-from tacgrasp.pretraining.report.store import TITLES, Groups, means
+from tacgrasp.pretraining.report.store import Groups, means
 from tacgrasp.pretraining.report.tables import COLUMNS
 
 _TABLES = {"zero_shot": "zero-shot", "probe": "frozen encoder and MLP"}
@@ -31,7 +31,7 @@ def bars(groups: Groups) -> Iterator[PagePlot]:
             offset = (number - len(rows) / 2 + 0.5) * width
             centres = [column + offset for column in range(len(CLASSES))]
             heights = [means(same).get(dimension) or 0.0 for dimension in CLASSES]
-            axes.bar(centres, heights, width, label=f"{TITLES[method]} ({variant})")
+            axes.bar(centres, heights, width, label=f"{same[0].name} ({variant})")
             for x, value in zip(centres, PAPER.get((table, method, split), ()), strict=False):
                 axes.plot([x - width / 2, x + width / 2], [value, value], color="black", lw=1.5)
         axes.set_xticks(range(len(CLASSES)), list(CLASSES))
@@ -59,7 +59,7 @@ def confusions(groups: Groups) -> Iterator[PagePlot]:
             axes.set_xticks(range(len(names)), names, rotation=90, fontsize=6)
             axes.set_yticks(range(len(names)), names, fontsize=6)
             axes.set_title(dimension, fontsize=8)
-        name = f"CLTP ({variant}), {table.replace('_', '-')}, {split}"
+        name = f"{result.name} ({variant}), {table.replace('_', '-')}, {split}"
         axes_meaning = f"truth by row, prediction by column, seed {result.seed}"
         figure.suptitle(f"{name}: {axes_meaning}", fontsize=9)
         yield _plot(figure, f"confusion-{table}-{variant}-{split}", f"{name}, confusion matrices")

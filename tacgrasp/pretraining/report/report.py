@@ -113,7 +113,7 @@ def describe_run(results: Sequence[Result], groups: Groups) -> str:
     else:
         device = "Without an accelerator"
     encoders = [r for r in results if r.table != CAPTIONS and r.method != GEOMETRIC_BASELINE]
-    presets = sorted({r.variant for r in encoders})
+    presets = sorted({r.variant.split(",")[0].split("+")[0] for r in encoders})
     seeds = len({r.learned_seed for r in results if r.learned_seed is not None})
     learned = {0: "an unknown number of seeds", 1: "one seed"}.get(seeds, f"{seeds} seeds")
     methods: dict[int, set[str]] = {}
@@ -125,7 +125,7 @@ def describe_run(results: Sequence[Result], groups: Groups) -> str:
         for count, names in sorted(methods.items())
     )
     return (
-        f"{device}. Encoders: {'; '.join(presets) or 'none'}. "
+        f"{device}. Encoders: {', '.join(presets) or 'none'}. "
         f"{learned[0].upper() + learned[1:]} of pre-training; "
         f"{spread or 'no spread over seeds was measured'}."
     )

@@ -133,6 +133,7 @@ class RowFile:
                 learned_seed=None if self.learned_from is None else self.seed,
                 points=self.points,
                 minutes=self.total_minutes,
+                title=ROWS[self.row].about if self.row in ROWS else "",
             )
             for table, of_table in self.scores.items()
             for split, values in (

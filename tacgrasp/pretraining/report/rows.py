@@ -112,19 +112,19 @@ ROWS: Mapping[str, RowRecipe] = {
     "unitouch": RowRecipe(about="UniTouch-like, images", method="unitouch"),
     "tvl": RowRecipe(about="TVL-like, images", method="tvl"),
     "cltp_full": RowRecipe(
-        about="CLTP, all points, learned from the set full, unseen objects left out",
+        about="CLTP, all points, learned from the set full without the unseen objects",
         method="cltp",
         learns_from="full",
     ),
-    "cltp_quarter": _quarter("CLTP, all points, to compare the rows below with", _USUAL),
+    "cltp_quarter": _quarter("CLTP, all points, a quarter of the budget", _USUAL),
     "papers_losses": _quarter(
-        "the paper's captions and losses alone, for CLIP too",
+        "CLTP by the paper's captions and losses alone, for CLIP too",
         CltpRecipe(texts="caption", prompt_weight=0.0, head_weight=0.0),
         ClipRecipe(texts="caption", prompt_weight=0.0, read_weight=0.0),
     ),
-    "heads_off": _quarter("without the state heads' losses", CltpRecipe(head_weight=0.0)),
+    "heads_off": _quarter("CLTP without the state heads' losses", CltpRecipe(head_weight=0.0)),
     "heads_alone": _quarter(
-        "the state heads' losses alone", CltpRecipe(contrast_weight=0.0, prompt_weight=0.0)
+        "CLTP by the state heads' losses alone", CltpRecipe(contrast_weight=0.0, prompt_weight=0.0)
     ),
     "geometric_baseline": RowRecipe(
         about="direct computation from the 1024 points",

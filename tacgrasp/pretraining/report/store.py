@@ -149,6 +149,7 @@ class Result(Measurement):
         judge: What rated captions beside the rule; '' where nothing did.
         points: Points of the encoder's input; None for images, or where unknown.
         minutes: Minutes of training and measuring together; None where unknown.
+        title: Name in tables; that of the method when empty.
     """
 
     format: ClassVar[str] = "tacgrasp-result"
@@ -163,6 +164,12 @@ class Result(Measurement):
     judge: str = ""
     points: int | None = None
     minutes: float | None = None
+    title: str = ""
+
+    @property
+    def name(self) -> str:
+        """Name in tables."""
+        return self.title or TITLES[self.method]
 
 
 def save(folder: Path, measurement: Measurement) -> Path:

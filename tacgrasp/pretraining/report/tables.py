@@ -82,21 +82,27 @@ def paper_tables(groups: Groups) -> Iterator[PageSection]:
 
 
 def _our_rows(groups: dict[tuple[str, str], Sequence[Result]], title: str) -> list[list[str]]:
-    """A row for each variant of a method, from its results by variant and split."""
+    """A row for each variant of a method, those that saw the most samples first."""
     rows = []
-    for variant in dict.fromkeys(variant for variant, _ in groups):
+    firsts: dict[str, Result] = {}
+    for (variant, _), same in groups.items():
+        firsts.setdefault(variant, same[0])
+    for variant, first in sorted(firsts.items(), key=lambda pair: -_samples(pair[1])):
         cells = []
         for split in COLUMNS:
             same = groups.get((variant, split), ())
             cells.append(_joined([mean([r.values.get(slot) for r in same]) for slot in CLASSES]))
-        first = next(same[0] for (of, _), same in groups.items() if of == variant)
-        rows.append([title, *cells, variant, *_effort(first)])
+        rows.append([first.name, *cells, variant, *_effort(first)])
     return rows or [[title, *["–"] * len(COLUMNS), "not measured", *["–"] * len(_EFFORT)]]
 
 
 def _papers_effort(method: str) -> list[str]:
     """Cells of ``_EFFORT``; the paper states no samples and no minutes."""
     return [points_text(None if method in IMAGE_METHODS else NUM_POINTS), "–", "–"]
+
+
+def _samples(result: Result) -> int:
+    return 0 if result.budget is None else result.budget.samples
 
 
 def _effort(result: Result) -> list[str]:
@@ -129,7 +135,7 @@ def wording_section(groups: Groups) -> Iterator[PageSection]:
             total = sum(was for was, _ in known)
             kept = f"{100 * sum(now for _, now in known) / total:.0f} %" if total else "–"
             cells = [_joined([column for column, _ in pairs]), _joined([now for _, now in pairs])]
-            rows.append([f"{TITLES[method]}, {name}", *cells, kept, variant])
+            rows.append([f"{same[0].name}: {name}", *cells, kept, variant])
     if rows:
         chance = _joined([100 / len(names) for names in CLASSES.values()])
         rows.append(["chance", "", chance, "", ""])
@@ -166,7 +172,7 @@ def detail_tables(groups: Groups) -> Iterator[PageSection]:
             if has_paper:
                 paper = PAPER.get((table, method, split))
                 cells += [f"{v:.1f}" for v in paper] if paper else ["–"] * len(CLASSES)
-            rows.append([TITLES[method], *cells, variant, *_effort(same[0]), str(len(same))])
+            rows.append([same[0].name, *cells, variant, *_effort(same[0]), str(len(same))])
         note = f"{split}: {contents}; {first.contacts} contacts. ± is half of the range over seeds."
         if has_paper and split == "physics":
             note += " The paper's columns are its real-world ones."

@@ -207,7 +207,7 @@ def test_wordings_stand_beside_the_papers_prompt_and_chance(tmp_path: Path) -> N
     results = [fake_result(table=t, values=dict.fromkeys(CLASSES, v)) for t, v in values.items()]
     save_row(tmp_path, fake_row(results))
     lines = report(tmp_path, tmp_path)[0].read_text().splitlines()
-    (unseen,) = [line for line in lines if line.startswith("| CLTP, unseen wordings")]
+    (unseen,) = [line for line in lines if line.startswith("| CLTP, all points: unseen wordings")]
     assert "72.0 / 72.0 / 72.0 / 72.0 / 72.0 | 90 % | grid |" in unseen
     (chance,) = [line for line in lines if line.startswith("| chance")]
     assert "5.3 / 20.0 / 25.0 / 11.1 / 20.0" in chance
