@@ -34,6 +34,9 @@ which its colours are taken. Our choice: a dot's edge is blurred by a pixel or t
 COARSE = 2
 """Pixels of a frame along one of the heights of a shear field: its points lie 35 px apart."""
 
+LEAST_FOLLOWED = 0.5
+"""Fraction of the dots that a single frame must show. Our choice: steep walls hide a fifth."""
+
 LEAST_WEIGHT = 0.5
 """Weight of the dots that were found at a point of the grid from which it is read."""
 
@@ -95,10 +98,7 @@ class MarkerReader:
         weight = self._weights @ dots.found.astype(np.float64)
         seen = weight > LEAST_WEIGHT
         if seen.sum() < MIN_POINTS:
-            raise TouchError(
-                f"{int(dots.found.sum())} of the {len(dots.found)} dots of {self.sensor.name} were "
-                "found; free the gel, and look whether it is torn, dirty or out of focus"
-            )
+            raise _too_few(dots, self.sensor)
         moved_px = dots.places_px - self._tracker.untouched.places_px
         along_px = (self._weights @ (dots.found[:, None] * moved_px))[seen] / weight[seen, None]
         along_mm = along_px * self.sensor.mm_per_px * (1.0, -1.0)
@@ -124,7 +124,7 @@ def heights_of_frame(
     """Heights (rows, columns) [mm] of one frame of a gel, with dots or without.
 
     Raises:
-        TouchError: As ``Photometer`` and ``DotTracker``.
+        TouchError: As ``Photometer`` and ``without_dots``.
     """
     if sensor.name in WITHOUT_DOTS:
         (frame,), background = without_dots([frame], background, sensor)
@@ -137,12 +137,25 @@ def without_dots(
     """Frames of one gel, and that of it untouched, with their dots painted over.
 
     Raises:
-        TouchError: As ``DotTracker``.
+        TouchError: As ``DotTracker``, or a frame shows less than ``LEAST_FOLLOWED`` of the dots.
     """
     tracker = DotTracker(background, sensor)
     painter = _Painter(tracker.radius_px)
-    painted = [painter.over(frame, tracker.follow(frame).places_px) for frame in frames]
+    painted = []
+    for frame in frames:
+        dots = tracker.follow(frame)
+        if dots.found.mean() < LEAST_FOLLOWED:
+            raise _too_few(dots, sensor)
+        painted.append(painter.over(frame, dots.places_px))
     return painted, painter.over(background, tracker.untouched.places_px)
+
+
+def _too_few(dots: Dots, sensor: SensorSpec) -> TouchError:
+    return TouchError(
+        f"{int(dots.found.sum())} of the {len(dots.found)} dots of {sensor.name} were found: is "
+        "the frame of the background's gel? Is the gel torn, dirty or out of focus? A gel without "
+        "dots is gelsight_mini"
+    )
 
 
 class _Painter:

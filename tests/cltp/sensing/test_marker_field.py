@@ -86,6 +86,14 @@ def test_moved_dots_add_nothing_to_the_noise_of_heights():
     assert np.abs(heights_of_frame(background, background, NET, SENSOR)).max() == 0
 
 
+def test_a_frame_of_a_gel_without_dots_is_refused_by_its_dots():
+    gel, rng = drawn(5)
+    background = gel.frame(FLAT, STILL, rng)
+    plain = dataclasses.replace(gel, dots_mm=np.empty((0, 2))).frame(FLAT, STILL, rng)
+    with pytest.raises(TouchError, match="0 of the 63 dots.*of the background's gel"):
+        heights_of_frame(plain, background, NET, SENSOR)
+
+
 def test_a_coarse_frame_is_the_mean_of_its_pixels():
     frame = np.arange(2 * 4 * 6 * 3, dtype=np.uint8)[: 4 * 6 * 3].reshape(4, 6, 3)
     blocks = frame.reshape(2, COARSE, 3, COARSE, 3).mean(axis=(1, 3))
