@@ -66,7 +66,8 @@ class LimitsResult:
         limit_n: The limit that the truth is held against [N].
         end: The named end.
         message: Its explanation.
-        verified: Declared, verified by the lift, truly held and not bruised.
+        verified: Declared, verified by the lift, truly held and not bruised. A task with a lift-off
+            finds its force by slides: there it must hang in the fingers in the end.
         bruised, dropped: As the truth has it.
         exceeded: Why the limit counts as exceeded; '' where it was kept.
         peak_n: Largest true force [N].
@@ -115,12 +116,16 @@ class LimitsResult:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Run:
-    """How one episode went."""
+    """How one episode went.
+
+    ``may_slide``: the task lifts off by slides that it catches, so that these do not count.
+    """
 
     world: World
     num_faulty: int
     outcome: Outcome | None
     path: Path | None
+    may_slide: bool
     hung: str = ""
     broke: str = ""
 
@@ -129,7 +134,8 @@ class _Run:
         truth = None if self.outcome is None else self.outcome.truth
         if self.outcome is None or truth is None or self.outcome.reason is not EndReason.SUCCESS:
             return False
-        return bool(truth["held"]) and not (truth["bruised"] or truth["bruised_at_start"])
+        hangs = truth["force_n"] > 0 and not truth["dropped"] if self.may_slide else truth["held"]
+        return bool(hangs) and not (truth["bruised"] or truth["bruised_at_start"])
 
 
 def run_seed(subject: Subject, seed: int) -> LimitsResult:
@@ -226,6 +232,7 @@ def _run(
         num_faulty=replies.num_faulty,
         outcome=outcome,
         path=path,
+        may_slide=config.verify.lift_off_mm > 0,
         hung=hung,
         broke=broke,
     )
