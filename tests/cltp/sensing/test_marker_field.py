@@ -90,7 +90,7 @@ def test_a_frame_of_a_gel_without_dots_is_refused_by_its_dots():
     gel, rng = drawn(5)
     background = gel.frame(FLAT, STILL, rng)
     plain = dataclasses.replace(gel, dots_mm=np.empty((0, 2))).frame(FLAT, STILL, rng)
-    with pytest.raises(TouchError, match="0 of the 63 dots.*of the background's gel"):
+    with pytest.raises(TouchError, match=r"0 of the 63 dots.*of the background's gel"):
         heights_of_frame(plain, background, NET, SENSOR)
 
 
