@@ -233,6 +233,8 @@ class SimGripper(_Device):
 
     def state(self) -> GripperState:
         self._check_connected()
+        if self._state.closed and self._grasp.patch is None:
+            return replace(self._state, width_m=0.0)  # what it held is gone
         return self._state
 
     def grip(self, force_n: float) -> GripperState:

@@ -17,6 +17,7 @@ from primitives.execution import rotate
 from primitives.limits import check_workspace
 from tacgrasp.config.schema import PadConfig, RunConfig, VerifyConfig
 from tacgrasp.episodes.record import StepPhase
+from tacgrasp.rig.gel_sense import CLEAR_N
 from tacgrasp.rig.protocols import Rig
 from tacgrasp.runtime.lift_off import lift_off, shifted
 from tacgrasp.runtime.outcome import EndOfEpisode, EndReason, Verification
@@ -25,6 +26,15 @@ from tacgrasp.runtime.steps import Readings, Steps
 SURELY = 2.0
 """Standard deviations by which a shift must exceed its limit, as 2.3 % of unmoved ones would at the
 limit itself."""
+
+CLOSED = 0.5
+"""Opening of the fingers over that before the lift, below which they hold nothing any more. Our
+choice: both gels pressed flat and a fruit gripped at its tip leave more."""
+
+LEAST_FELT = 0.25
+"""Felt force over what the command makes, by the reading before the lift, below which nothing is
+held any more. Our choice: half of what is felt of a contact that the pad's edge cuts in the
+middle."""
 
 UP = np.array([0.0, 0.0, 1.0])
 """Direction against gravity, base frame."""
@@ -48,22 +58,29 @@ def verify_by_lifting(
     sideways = shifted(lifted, side_m)
     for pose in (lifted, sideways):
         check_workspace(pose, config.limits())
-    before = steps.observe(StepPhase.VERIFY_BEFORE)
+    resting = before = steps.observe(StepPhase.VERIFY_BEFORE)
     shake = [sideways, lifted] * settings.shakes if settings.shake_mm > 0 else []
     floor_n = 0.0
     if settings.lift_off_mm > 0 and before.felt_force_n is not None:
         hangs = lift_off(rig, steps, settings, contract, before, side_m)
-        if hangs.problem:
+        problem = hangs.problem
+        if not problem:
+            before, floor_n = steps.observe(StepPhase.VERIFY_BEFORE), hangs.floor_n  # as it hangs
+            problem = lost(resting, before)
+        if problem:
             _move(rig, start, settings, settings.acceleration_m_s2)
-            return Verification(passed=False, message=hangs.problem)
-        before, floor_n = steps.observe(StepPhase.VERIFY_BEFORE), hangs.floor_n  # as it hangs
+            return Verification(passed=False, message=problem)
     with steps.keeping(contract, before, floor_n=floor_n):
         _move(rig, lifted, settings, settings.acceleration_m_s2)
         for pose in shake:
             _move(rig, pose, settings, settings.shake_acceleration_m_s2)
         rig.clock.sleep(settings.hold_s)
     after = steps.observe(StepPhase.VERIFY_AFTER)
-    verification = compare(before, after, settings, slip_mm=contract.slip_mm)
+    problem = lost(resting, after)
+    if problem:
+        verification = Verification(passed=False, message=problem)
+    else:
+        verification = compare(before, after, settings, slip_mm=contract.slip_mm)
     if settings.set_down and verification.passed:
         with steps.keeping(contract, after, floor_n=floor_n):
             _move(rig, start, settings, settings.acceleration_m_s2)
@@ -83,6 +100,35 @@ def accelerations(verify: VerifyConfig) -> list[tuple[float, float]]:
     """Accelerations of a held body in the verification, (sideways, upwards) [m/s²]."""
     shake = verify.shake_acceleration_m_s2 if verify.shakes else 0.0
     return [(0.0, verify.acceleration_m_s2), (shake, 0.0), (-shake, 0.0)]
+
+
+def lost(resting: Readings, now: Readings) -> str:
+    """Why nothing can be held any more, by the fingers' opening and by the felt force.
+
+    Args:
+        resting: Readings before the object was lifted.
+        now: Readings after it.
+
+    Returns:
+        The reason; '' where something may be held.
+    """
+    was_m, width_m = resting.gripper.width_m, now.gripper.width_m
+    if width_m < CLOSED * was_m:
+        return (
+            f"the object is gone: the fingers were {1000 * was_m:.1f} mm open before the lift, and "
+            f"are {1000 * width_m:.1f} mm"
+        )
+    felt = resting.felt_force_n
+    if felt is None or not resting.gripper.force_n > 0:
+        return ""
+    expected_n = felt.value * now.gripper.force_n / resting.gripper.force_n
+    felt_n = 0.0 if now.felt_force_n is None else now.felt_force_n.value
+    if expected_n >= CLEAR_N and felt_n < LEAST_FELT * expected_n:
+        return (
+            f"the object is gone: {felt_n:.2f} N felt, where this command made {expected_n:.2f} N "
+            "before the lift"
+        )
+    return ""
 
 
 def compare(

@@ -134,7 +134,7 @@ class _Run:
         truth = None if self.outcome is None else self.outcome.truth
         if self.outcome is None or truth is None or self.outcome.reason is not EndReason.SUCCESS:
             return False
-        hangs = truth["force_n"] > 0 and not truth["dropped"] if self.may_slide else truth["held"]
+        hangs = bool(truth["force_n"]) and not truth["dropped"] if self.may_slide else truth["held"]
         return bool(hangs) and not (truth["bruised"] or truth["bruised_at_start"])
 
 

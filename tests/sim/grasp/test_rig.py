@@ -109,6 +109,17 @@ def test_the_reconstruction_error_of_a_contact_grows_with_its_depth():
     assert error_mm(4.0) > 1.5 * error_mm(0.3)
 
 
+def test_closed_fingers_are_shut_once_their_body_is_gone():
+    rig = build("strawberry", 5)
+    rig.gripper.grip(2.0)
+    rig.grasp.move((0.0, 40.0), 0.4, 2.5)
+    assert rig.gripper.state().width_m > 0.01
+    rig.gripper.adjust(0.01)
+    rig.grasp.wait(2.0)
+    assert rig.grasp.dropped
+    assert rig.gripper.state().width_m == 0.0
+
+
 def test_a_mistyped_command_is_refused_and_nothing_moves():
     rig = build("strawberry", 3)
     for command in (
