@@ -30,6 +30,12 @@ COMMANDS = {
     "bench": "measure and print figures: strawberry, latency, gel, balls, faults, ...",
 }
 
+STEP_BY_STEP = (
+    *("run", "serve", "demo", "replay", "view", "describe", "ask", "emulate", "doctor", "jog"),
+)
+"""Commands whose computing comes in steps of milliseconds. They keep to one thread: on a machine
+with other work, threads that wait for each other have taken up to fifteen times as long."""
+
 FILE_ERRORS = (
     *(errno.EACCES, errno.EDQUOT, errno.EFBIG, errno.EINVAL, errno.EIO, errno.EISDIR),
     *(errno.ENOENT, errno.ENOSPC, errno.ENOTDIR, errno.EPERM, errno.EROFS),
@@ -81,11 +87,15 @@ def main(argv: Sequence[str] | None = None) -> int:
 def _dispatch(command: str, argv: Sequence[str]) -> int:
     from tacgrasp.base.errors import UsageError
     from tacgrasp.base.package_check import check_packages
+    from tacgrasp.base.worker_pool import THREADS
 
     try:
         if command not in COMMANDS:
             raise UsageError(f"unknown command {command!r}; known: {', '.join(COMMANDS)}")
         check_packages()
+        if command in STEP_BY_STEP:
+            for variable in THREADS:  # read as numpy and torch are imported
+                os.environ.setdefault(variable, "1")
         module = importlib.import_module(f"tacgrasp.cli.{command}")
         return int(module.main(argv))
     except UsageError as error:

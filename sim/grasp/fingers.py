@@ -24,6 +24,7 @@ import torch
 
 from cltp.tactile.cloud import FloatArray, grid_axes_mm
 from cltp.tactile.sensors import SensorSpec
+from cltp.torch_threads import torch_threads
 from sim.gel.layer import ElasticLayer, GelMaterial
 from sim.gel.shear.coarse import CoarseShear
 from sim.grasp.bodies import Body
@@ -237,6 +238,7 @@ class FlatFingers:
         """Patch of a body at ``offset_mm`` pressed with ``force_n`` [N]."""
         return self.press_many([offset_mm], [force_n])[0]
 
+    @torch_threads()
     def press_many(
         self, offsets_mm: list[tuple[float, float]], forces_n: list[float]
     ) -> list[Patch]:

@@ -17,6 +17,7 @@ from torch import Tensor
 
 from cltp.tactile.cloud import FloatArray, Stamp
 from cltp.tactile.shear.field import ShearField
+from cltp.torch_threads import torch_threads
 from sim.gel.shear.layer import Shear
 from sim.gel.shear.load import carry
 from sim.gel.shear.sensed import shear_field
@@ -85,6 +86,7 @@ class PadShear:
         """The gripper's force changed; the body does not move along the pad."""
         self._step(patch, np.zeros(3))
 
+    @torch_threads()
     def carry(self, patch: Patch, load_n: FloatArray) -> None:
         """The body came to rest under a load, as ``FlatFingers.load_on`` gives it."""
         if patch is self._patch and self._load is not None and (load_n == self._load).all():
@@ -121,6 +123,7 @@ class PadShear:
             self._seen = self.shear, self._patch, self._field()
         return replace(self._seen[2], stamp=stamp)
 
+    @torch_threads()
     def _field(self) -> ShearField:
         layer, sensor = self._layer, self._fingers.sensor
         if self.shear is None or self._patch is None:
@@ -129,6 +132,7 @@ class PadShear:
         height_mm = coarse(self._fingers, self._patch.height_mm)
         return shear_field(layer, self.shear, height_mm, sensor)
 
+    @torch_threads()
     def _step(self, patch: Patch, motion: FloatArray) -> None:
         move = torch.as_tensor(motion)[None]
         self.shear = self._layer.step(self.shear, self._pressure(patch), move, tol=_TOL)

@@ -4,8 +4,11 @@ import dataclasses
 
 import numpy as np
 import pytest
+import torch
 
 from cltp.tactile.sensors import sensor_named
+from cltp.torch_threads import torch_threads
+from sim.gel import contact_solver, layer
 from sim.gel.layer import gel_of
 from sim.grasp.bodies import draw_body
 from sim.grasp.fingers import COLUMNS, GRAVITY_M_S2, ROWS, FlatFingers, Patch
@@ -95,6 +98,18 @@ def test_the_bruise_force_makes_the_bruise_pressure_at_the_centre():
     resistance = fingers()
     patch = resistance.press((0.0, 0.0), resistance.body.bruise_n)
     assert patch.peak_kpa == pytest.approx(resistance.bruise_kpa)
+
+
+def test_a_press_keeps_to_one_thread_whatever_the_process_uses(monkeypatch):
+    tomato, threads = fingers(), []
+    solve = contact_solver.solve
+    monkeypatch.setattr(
+        layer, "solve", lambda *a, **k: threads.append(torch.get_num_threads()) or solve(*a, **k)
+    )
+    with torch_threads(2):
+        tomato.press((0.0, 0.0), 0.5)
+        assert torch.get_num_threads() == 2
+    assert threads == [1]
 
 
 def test_fingers_beside_the_body_do_not_reach_it():

@@ -14,6 +14,7 @@ import pytest
 from tacgrasp.__main__ import COMMANDS, main, usage
 from tacgrasp.base import package_check
 from tacgrasp.base.errors import UsageError
+from tacgrasp.base.worker_pool import THREADS
 from tacgrasp.console import COMPLETED
 from tacgrasp.episodes.listing import table
 from tests.paths import ROOT
@@ -65,6 +66,30 @@ def test_neither_torch_nor_open3d_nor_a_device_sdk_is_loaded(code: str) -> None:
     )
     assert done.returncode == 0, done.stderr
     assert done.stdout.splitlines()[-1] == "[]"
+
+
+@pytest.mark.parametrize(
+    ("command", "given", "expected"),
+    [("run", None, "1"), ("run", "2", "2"), ("train", None, None)],
+)
+def test_commands_that_compute_step_by_step_keep_to_one_thread(
+    command: str, given: str | None, expected: str | None
+) -> None:
+    code = f"""
+from tacgrasp.__main__ import main
+try:
+    main(['{command}', '--help'])
+except SystemExit:
+    pass
+import os; print([os.environ.get(name) for name in {THREADS!r}])
+"""
+    environment = {name: value for name, value in os.environ.items() if name not in THREADS}
+    environment |= {} if given is None else dict.fromkeys(THREADS, given)
+    done = subprocess.run(
+        [sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, env=environment
+    )
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.splitlines()[-1] == str([expected] * len(THREADS))
 
 
 def test_without_a_command_the_usage_is_printed_and_it_is_wrong_use() -> None:
