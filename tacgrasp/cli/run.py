@@ -108,6 +108,7 @@ def _run(config: RunConfig, contract: Contract, events: EventFile, flags: RunFla
     from tacgrasp.policy_factory import check_policy
     from tacgrasp.rig.factory import check_names
     from tacgrasp.run import run_recorded
+    from tacgrasp.runtime.reflex_loop import unfelt_slips
     from tacgrasp.viewer.server import require_rerun
 
     check_policy(config.policy, config)
@@ -126,7 +127,9 @@ def _run(config: RunConfig, contract: Contract, events: EventFile, flags: RunFla
         with working("loading the policy and connecting the rig"):
             policy, rig = _connect(config, stack)
         start = f"{config.task} with {policy.name}, seed {config.seed}: {config.instruction}"
-        for text in (start, *contract_lines(contract)):
+        warning = unfelt_slips(rig, config)
+        warnings = [f"warning: {warning}"] if warning else []
+        for text in (start, *contract_lines(contract), *warnings):
             indent = 2 if text.startswith("  ") else 0
             for line in wrapped(text.strip(), indent, indent + 2, width_of(console)):
                 console.print(line)

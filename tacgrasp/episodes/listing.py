@@ -15,7 +15,7 @@ from rich.table import Table
 
 from tacgrasp.episodes.errors import EpisodeError
 from tacgrasp.episodes.reader import read_episode
-from tacgrasp.episodes.record import Episode, EpisodeEnd, StepPhase, end_label
+from tacgrasp.episodes.record import Episode, EpisodeEnd, StepPhase, end_label, harms
 
 _YES_NO = {True: "yes", False: "no", None: "not tried"}
 
@@ -123,11 +123,7 @@ def _row(path: Path) -> list[str]:
 def _end_text(end: EpisodeEnd) -> str:
     """The end held against the truth; what became of the body where it was no success."""
     label = end_label(end.reason, end.truth)
-    truth = end.truth or {}
-    harms = [name for name in ("dropped", "slipped") if truth.get(name)]
-    if truth.get("bruised") or truth.get("bruised_at_start"):
-        harms.append("bruised")
-    new = [harm for harm in harms if harm not in label]
+    new = [harm for harm in harms(end.truth or {}) if harm not in label]
     return ", ".join([label, *new])
 
 

@@ -59,12 +59,21 @@ def end_label(reason: str, truth: TruthFacts | None) -> str:
     """
     if reason != "success" or truth is None:
         return reason
-    harms = [name for name in ("dropped", "slipped") if truth.get(name)]
-    if not harms and not truth.get("held", True):
-        harms.append("not held")
-    if truth.get("bruised") or truth.get("bruised_at_start"):
-        harms.append("bruised")
-    return f"verified by touch, but {' and '.join(harms)}" if harms else reason
+    found = harms(truth)
+    if not {"dropped", "slipped"} & set(found) and not truth.get("held", True):
+        found.insert(0, "not held")
+    return f"verified by touch, but {' and '.join(found)}" if found else reason
+
+
+def harms(truth: TruthFacts) -> list[str]:
+    """What went wrong with a body: dropped, slipped, bruised.
+
+    One that slid and is still held counts as held: tasks that lift off slowly let it slide.
+    """
+    slipped = truth.get("slipped") and not truth.get("held", False)
+    bruised = truth.get("bruised") or truth.get("bruised_at_start")
+    facts = {"dropped": truth.get("dropped"), "slipped": slipped, "bruised": bruised}
+    return [name for name, is_so in facts.items() if is_so]
 
 
 class Topic(StrEnum):

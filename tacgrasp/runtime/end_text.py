@@ -43,6 +43,8 @@ def gain_text(outcome: Outcome) -> str:
 def _lift_text(outcome: Outcome, verify: VerifyConfig) -> str:
     if outcome.verified is None:
         return "the lift was not completed" if outcome.declared else "not lifted"
+    if not outcome.lifted:
+        return f"lifted off by {verify.lift_off_mm:g} mm alone"
     shaken = ", shaken" if verify.shakes and verify.shake_mm else ""
     return f"lifted {verify.lift_mm:g} mm{shaken}, {verify.hold_s:g} s"
 
@@ -50,11 +52,11 @@ def _lift_text(outcome: Outcome, verify: VerifyConfig) -> str:
 def _true_state(truth: TruthFacts, *, lifted: bool) -> str:
     if truth["dropped"]:
         return "Dropped"
-    if truth["slipped"]:
-        return f"Slipped by {truth['slip_mm']:.1f} mm"
+    slid = f"by {truth['slip_mm']:.1f} mm" if truth["slipped"] else ""
     if not truth["held"]:
-        return "Nothing gripped"
-    return "Held" if lifted else "Gripped"
+        return f"Slipped {slid}" if slid else "Nothing gripped"
+    state = "Held" if lifted else "Gripped"
+    return f"{state}, slid {slid}" if slid else state
 
 
 def _bruise_text(truth: TruthFacts) -> str:

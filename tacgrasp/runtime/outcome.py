@@ -36,6 +36,7 @@ class Verification:
         shift_mm: Shift of the contact on the pad [mm].
         area_ratio: Area after the lift over the area before.
         depth_ratio: Depth after the lift over the depth before.
+        lifted: Whether it was lifted; False where it was lost as it was lifted off.
     """
 
     passed: bool
@@ -43,6 +44,7 @@ class Verification:
     shift_mm: float = math.nan
     area_ratio: float = math.nan
     depth_ratio: float = math.nan
+    lifted: bool = True
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -65,6 +67,7 @@ class Outcome:
         force_mark: Mark of the sensor's forces; empty for a calibrated unit.
         force_residual: Relative residual of their calibration; None where none was felt.
         gain: The gripper's force gain, relative to the sensor's force; None where none was felt.
+        lifted: Whether a lift that was tried went on after the lift-off.
     """
 
     reason: EndReason
@@ -81,6 +84,7 @@ class Outcome:
     force_mark: str = ""
     force_residual: float | None = None
     gain: GainEstimate | None = None
+    lifted: bool = True
 
     @property
     def label(self) -> str:

@@ -9,7 +9,7 @@ from dataclasses import asdict, dataclass, replace
 from typing import TypeVar
 
 from primitives import RobotError
-from tacgrasp.config.schema import RunConfig
+from tacgrasp.config.schema import RunConfig, VerifyConfig
 from tacgrasp.episodes import EpisodeEnd, EpisodeError
 from tacgrasp.episodes.interrupts import delayed_interrupts
 from tacgrasp.episodes.record import TruthFacts
@@ -65,7 +65,7 @@ def close(ending: Ending) -> Outcome:
     rig, steps, end = ending.rig, ending.steps, ending.end
     with delayed_interrupts():
         try:
-            truth = read_truth(rig)  # before the gripper opens
+            truth = read_truth(rig, ending.config.verify)  # before the gripper opens
         finally:
             safe_state, is_safe = _make_safe(rig, ending.config, end)
         problems = [] if is_safe else [safe_state]
@@ -86,6 +86,7 @@ def close(ending: Ending) -> Outcome:
             force_mark=steps.force_mark,
             force_residual=steps.force_residual,
             gain=steps.gain,
+            lifted=ending.verification is None or ending.verification.lifted,
         )
         refusals = _refusals(lambda: ending.recorder.finish(_episode_end(rig, outcome)))
     if refusals and outcome.reason is not EndReason.FAULT:
@@ -94,8 +95,12 @@ def close(ending: Ending) -> Outcome:
     return outcome
 
 
-def read_truth(rig: Rig) -> TruthFacts | None:
-    """Truth of a simulated world for the record; None on a real rig, or when its emulators died."""
+def read_truth(rig: Rig, verify: VerifyConfig) -> TruthFacts | None:
+    """Truth of a simulated world for the record; None on a real rig, or when its emulators died.
+
+    A body that hangs in the fingers is held, however far it slid, where a task lifts off by slides
+    that the reflex catches.
+    """
     try:
         truth = rig.truth()
     except RobotError as error:  # the robot must be made safe all the same
@@ -105,6 +110,8 @@ def read_truth(rig: Rig) -> TruthFacts | None:
         return None
     facts = {STORED_NAMES.get(name, name): value for name, value in asdict(truth).items()}
     x_mm, y_mm = facts.pop("offset_mm")
+    if verify.lift_off_mm > 0:
+        facts["held"] = truth.force_n > 0 and not truth.dropped
     return facts | {"offset_x_mm": x_mm, "offset_y_mm": y_mm}
 
 

@@ -69,7 +69,7 @@ def verify_by_lifting(
             problem = lost(resting, before)
         if problem:
             _move(rig, start, settings, settings.acceleration_m_s2)
-            return Verification(passed=False, message=problem)
+            return Verification(passed=False, message=problem, lifted=False)
     with steps.keeping(contract, before, floor_n=floor_n):
         _move(rig, lifted, settings, settings.acceleration_m_s2)
         for pose in shake:

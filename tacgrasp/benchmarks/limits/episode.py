@@ -116,16 +116,12 @@ class LimitsResult:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Run:
-    """How one episode went.
-
-    ``may_slide``: the task lifts off by slides that it catches, so that these do not count.
-    """
+    """How one episode went."""
 
     world: World
     num_faulty: int
     outcome: Outcome | None
     path: Path | None
-    may_slide: bool
     hung: str = ""
     broke: str = ""
 
@@ -134,8 +130,7 @@ class _Run:
         truth = None if self.outcome is None else self.outcome.truth
         if self.outcome is None or truth is None or self.outcome.reason is not EndReason.SUCCESS:
             return False
-        hangs = bool(truth["force_n"]) and not truth["dropped"] if self.may_slide else truth["held"]
-        return bool(hangs) and not (truth["bruised"] or truth["bruised_at_start"])
+        return bool(truth["held"]) and not (truth["bruised"] or truth["bruised_at_start"])
 
 
 def run_seed(subject: Subject, seed: int) -> LimitsResult:
@@ -232,7 +227,6 @@ def _run(
         num_faulty=replies.num_faulty,
         outcome=outcome,
         path=path,
-        may_slide=config.verify.lift_off_mm > 0,
         hung=hung,
         broke=broke,
     )

@@ -15,6 +15,7 @@ from primitives.devices import Pose
 from primitives.execution import CLOSED_WIDTH_M
 from tacgrasp.__main__ import main
 from tacgrasp.config.layers import load
+from tacgrasp.config.schema import VerifyConfig
 from tacgrasp.config.terms import contract_of
 from tacgrasp.console import COMPLETED
 from tacgrasp.episodes import read_episode
@@ -188,7 +189,7 @@ def test_when_the_emulators_die_the_run_ends_with_a_fault_and_the_truth_is_left_
     rig = make_rig(config)
     try:
         rig.emulators.close()
-        assert read_truth(rig) is None
+        assert read_truth(rig, VerifyConfig()) is None
         with pytest.raises(RobotError):
             rig.arm.pose()
             rig.gripper.state()

@@ -66,6 +66,7 @@ def test_a_good_end_is_told_with_the_lift_the_bruise_and_the_peak(config: RunCon
         ({"held": False, "slipped": True, "slip_mm": 3.24}, "Slipped by 3.2 mm: lifted 40 mm"),
         ({"held": False, "slipped": True, "dropped": True}, "Dropped: lifted 40 mm"),
         ({"held": False}, "Nothing gripped: lifted 40 mm"),
+        ({"held": False, "dropped": True, "bruised": True}, "by touch, but dropped and bruised"),
     ],
 )
 def test_what_touch_verified_and_the_truth_denies_is_not_called_a_success(
@@ -92,6 +93,18 @@ def test_without_a_lift_the_words_say_so(config: RunConfig) -> None:
 def test_a_lift_without_shakes_is_not_called_shaken(config: RunConfig) -> None:
     still = config.model_copy(update={"verify": config.verify.model_copy(update={"shakes": 0})})
     assert end_text(GOOD, still).startswith("Held: lifted 40 mm, 2 s.")
+
+
+def test_what_slid_and_was_caught_is_held(config: RunConfig) -> None:
+    caught = ended(held=True, slipped=True, slip_mm=2.5)
+    assert end_text(caught, config).startswith("Held, slid by 2.5 mm: lifted 40 mm")
+    assert caught.completed
+
+
+def test_what_was_lost_as_it_was_lifted_off_is_not_called_lifted() -> None:
+    lost = replace(ended(held=False, dropped=True), verified=False, lifted=False)
+    text = end_text(lost, load("fruit")[0])
+    assert text.startswith("Dropped: lifted off by 1 mm alone.")
 
 
 def test_a_real_rig_tells_what_touch_knows_and_nothing_else(config: RunConfig) -> None:
