@@ -202,8 +202,9 @@ class UntouchedGel:
     def follow_around(self, cloud: TactileCloud) -> None:
         """Let the reference follow the drift in a frame of a light contact.
 
-        The cells around the contact tell it, and it is continued under the contact, whose place is
-        that of the frame before. A deep contact is left as it is.
+        The cells around the contact tell it, and it is continued under the contact. Its place is
+        that of the frame before, less the drift, together with what seems to be its place now: it
+        may have slid. A deep contact is left as it is.
 
         Raises:
             TouchError: A cloud of another sensor.
@@ -213,8 +214,8 @@ class UntouchedGel:
         if _depth_mm(change, region) >= LIGHT_MM:
             self._region = None
             return
-        if region is None:
-            region = self._filter.region(seen.bump)
+        here = self._filter.region(seen.bump)
+        region = here if region is None else region | here
         drift_mm = self._filter.drift_under(change, region)
         if self._region is None and self._takes_away(change, drift_mm):
             return

@@ -173,6 +173,23 @@ def test_a_contact_that_stays_is_never_followed_away(rng):
     assert gel.test(held(contact, 0.0, t_s + 0.1, rng)).in_contact
 
 
+@pytest.mark.parametrize("slid_mm", [0.5, 1.0, 2.0, 3.0, 4.0, 6.0])
+def test_a_light_contact_that_slid_away_is_not_taken_for_drift(rng, slid_mm):
+    gel, t_s = gel_of_noise(0), 0.2
+    for _ in range(5):
+        t_s += 0.5
+        gel.follow_around(held(bump(0.08, 2.0, 3.0, -1.0), 0.0, t_s, rng))
+    slid = bump(0.08, 2.0, 3.0, -1.0 + slid_mm)
+    for _ in range(3):
+        t_s += 3.0
+        now = held(slid, 0.0, t_s, rng)
+        gel.follow_around(now)
+        x, y, z = gel.without_drift(now).points_mm.T.astype(float)
+        true = heights_at(slid, x, y, MINI)
+        under = true > 0.03
+        assert z[under].mean() == pytest.approx(true[under].mean(), rel=0.2)
+
+
 def test_a_deep_contact_is_left_as_it_is():
     gel, touched = gel_of_noise(0), stamped(0.2 * np.exp(-(X**2) / 4), 2.2)
     gel.follow_around(touched)
