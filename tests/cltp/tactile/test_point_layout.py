@@ -157,7 +157,8 @@ def test_cells_are_square_and_the_pad_lies_in_the_middle(columns: int, rows: int
     np.testing.assert_allclose(grid[inside].mean(axis=0)[:2], 0.0, atol=1e-4)
     edges_mm = [sensor.width_mm / taken[1], sensor.height_mm / taken[0]]
     assert min(edges_mm) > 0.9 * GRID.pitch_mm or min(taken) <= 3
-    assert edges_mm[0] / edges_mm[1] == pytest.approx(1, rel=1.1 / min(taken))
+    # Either count may be one off what its side holds, in opposite ways: cells lie symmetrically.
+    assert edges_mm[0] / edges_mm[1] == pytest.approx(1, rel=2.2 / min(taken))
     log_edge = log_cell_edge(torch.from_numpy(points)[None])
     assert 0.2 * float(log_edge.exp()) == pytest.approx(edges_mm[0], rel=1e-3)
 
