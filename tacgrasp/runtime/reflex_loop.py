@@ -278,7 +278,7 @@ def unfelt_slips(rig: Rig, config: RunConfig) -> str:
     reason = absence(rig) if config.reflex else "the reflex is switched off"
     if not config.verify.lift_off_mm or not reason:
         return ""
-    others = "; --sensor taxels feels them" if config.devices == "sim" else ""
+    others = "; --sensor taxels feels them" if config.reflex and config.devices == "sim" else ""
     return f"slips of the lift-off are not felt, the grip stays as it is: {reason}{others}"
 
 

@@ -18,7 +18,7 @@ from tacgrasp.config.schema import RunConfig
 from tacgrasp.config.terms import contract_of
 from tacgrasp.rig.factory import make_executor
 from tacgrasp.runtime.reflex_hold import QUIET_FRAMES
-from tacgrasp.runtime.reflex_loop import DECISION_S, ReflexLoop
+from tacgrasp.runtime.reflex_loop import DECISION_S, ReflexLoop, unfelt_slips
 from tests.fakes.contracts import contract as bands
 
 SEED, HEAVY = 3, 9
@@ -232,3 +232,21 @@ def test_a_force_that_no_command_makes_is_not_known_and_the_hold_goes_on():
     trace = reflex.take_trace()
     assert trace.num_blind == 0
     assert (trace.felt_n == 0).all()  # as where nothing is known of it
+
+
+@pytest.mark.parametrize(
+    ("task", "sensor", "has_reflex", "words"),
+    [
+        ("fruit", "gelsight_mini", True, "gelsight_mini measures no shear; --sensor taxels"),
+        ("fruit", "taxels", False, "the reflex is switched off"),
+        ("fruit", "taxels", True, ""),
+        ("fruit", "gelsight_mini_markers", True, ""),
+        ("strawberry", "gelsight_mini", True, ""),
+    ],
+)
+def test_a_lift_off_whose_slips_nobody_feels_is_warned_of(task, sensor, has_reflex, words):
+    changes = {"sensor": sensor, "reflex": has_reflex}
+    config = load(task)[0].model_copy(update=changes)
+    warning = unfelt_slips(build(task, SEED, sensor_name=sensor), config)
+    assert words in warning
+    assert bool(warning) == bool(words)
