@@ -30,11 +30,9 @@ COMMANDS = {
     "bench": "measure and print figures: strawberry, latency, gel, balls, faults, ...",
 }
 
-STEP_BY_STEP = (
-    *("run", "serve", "demo", "replay", "view", "describe", "ask", "emulate", "doctor", "jog"),
-)
-"""Commands whose computing comes in steps of milliseconds. They keep to one thread: on a machine
-with other work, threads that wait for each other have taken up to fifteen times as long."""
+ON_ALL_CORES = ("train", "eval", "data", "calibrate", "bench")
+"""Commands with much to compute at once. The others compute in steps of milliseconds and keep to
+one thread: on a busy machine, threads that wait for each other took up to fifteen times as long."""
 
 FILE_ERRORS = (
     *(errno.EACCES, errno.EDQUOT, errno.EFBIG, errno.EINVAL, errno.EIO, errno.EISDIR),
@@ -93,7 +91,7 @@ def _dispatch(command: str, argv: Sequence[str]) -> int:
         if command not in COMMANDS:
             raise UsageError(f"unknown command {command!r}; known: {', '.join(COMMANDS)}")
         check_packages()
-        if command in STEP_BY_STEP:
+        if command not in ON_ALL_CORES:
             for variable in THREADS:  # read as numpy and torch are imported
                 os.environ.setdefault(variable, "1")
         module = importlib.import_module(f"tacgrasp.cli.{command}")

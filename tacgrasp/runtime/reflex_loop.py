@@ -47,7 +47,7 @@ class ReflexLoop:
 
     def __init__(self, rig: Rig, executor: Executor, threshold: float | None = None) -> None:
         self._rig, self._executor, self._threshold = rig, executor, threshold
-        self.absent = absence(rig)
+        self.absent = _absence(rig)
         self._began_s = 0.0
         self._period_s = 1.0 / rig.sensor.spec.frame_hz
         self._forget()
@@ -275,14 +275,14 @@ def make_reflex(rig: Rig, executor: Executor, config: RunConfig) -> ReflexLoop |
 
 def unfelt_slips(rig: Rig, config: RunConfig) -> str:
     """Warning of a task that lifts off by feeling slips, on a rig that feels none; '' otherwise."""
-    reason = absence(rig) if config.reflex else "the reflex is switched off"
+    reason = _absence(rig) if config.reflex else "the reflex is switched off"
     if not config.verify.lift_off_mm or not reason:
         return ""
     others = "; --sensor taxels feels them" if config.reflex and config.devices == "sim" else ""
     return f"slips of the lift-off are not felt, the grip stays as it is: {reason}{others}"
 
 
-def absence(rig: Rig) -> str:
+def _absence(rig: Rig) -> str:
     """Why there can be no reflex on a rig; '' where there can."""
     spec = rig.sensor.spec
     if spec.shear_grid is None:
