@@ -39,6 +39,8 @@ EVEN = "small"
 """Encoder of all rows of points that are compared on equal terms: the paper's 1024 even points."""
 
 _USUAL, _USUAL_CLIP = CltpRecipe(), ClipRecipe()
+_PAPERS = CltpRecipe(texts="caption", prompt_weight=0.0, head_weight=0.0)
+_PAPERS_CLIP = ClipRecipe(texts="caption", prompt_weight=0.0, read_weight=0.0)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -96,8 +98,10 @@ class RowRecipe:
         return replace(CLTP_SCHEDULE, steps=max(1, samples // CLTP_SCHEDULE.batch_size))
 
 
-def _quarter(about: str, recipe: CltpRecipe, clip: ClipRecipe = _USUAL_CLIP) -> RowRecipe:
-    return RowRecipe(about=about, method="cltp", recipe=recipe, clip=clip, part=QUARTER)
+def _quarter(
+    about: str, recipe: CltpRecipe, clip: ClipRecipe = _USUAL_CLIP, method: str = "cltp"
+) -> RowRecipe:
+    return RowRecipe(about=about, method=method, recipe=recipe, clip=clip, part=QUARTER)
 
 
 ROWS: Mapping[str, RowRecipe] = {
@@ -118,9 +122,13 @@ ROWS: Mapping[str, RowRecipe] = {
     ),
     "cltp_quarter": _quarter("CLTP, all points, a quarter of the budget", _USUAL),
     "papers_losses": _quarter(
-        "CLTP by the paper's captions and losses alone, for CLIP too",
-        CltpRecipe(texts="caption", prompt_weight=0.0, head_weight=0.0),
-        ClipRecipe(texts="caption", prompt_weight=0.0, read_weight=0.0),
+        "CLTP by the paper's captions and losses alone, for CLIP too", _PAPERS, _PAPERS_CLIP
+    ),
+    "papers_losses_no_image": _quarter(
+        "CLTP without image, by the paper's captions and losses alone, for CLIP too",
+        _PAPERS,
+        _PAPERS_CLIP,
+        "cltp_no_image",
     ),
     "heads_off": _quarter("CLTP without the state heads' losses", CltpRecipe(head_weight=0.0)),
     "heads_alone": _quarter(
