@@ -56,20 +56,23 @@ OPEN_SPEED_M_S = 0.05
 
 
 class SimClock:
-    """Clock of a simulated world: real time plus the duration of simulated motions and waits."""
+    """Clock of a simulated world: it moves by simulated motions, frames and waits alone.
+
+    Time that the computer takes does not pass, so that an episode is the same on any computer.
+    """
 
     def __init__(self) -> None:
-        self._offset_s = 0.0
+        self._began_s, self._began_wall_s, self._offset_s = time.monotonic(), time.time(), 0.0
         self._grasp: Grasp | None = None
         self._period_s, self._left_s, self._made_s = math.inf, math.inf, 0.0
         self._call: Callable[[], None] | None = None
         self._pending: tuple[float, Callable[[], None]] | None = None
 
     def monotonic(self) -> float:
-        return time.monotonic() + self._offset_s
+        return self._began_s + self._offset_s
 
     def wall(self) -> float:
-        return time.time() + self._offset_s
+        return self._began_wall_s + self._offset_s
 
     def sleep(self, seconds: float) -> None:
         """Let simulated time pass; the attached grasp follows."""

@@ -104,7 +104,7 @@ DEMOS: dict[str, Demo] = {
     "strawberry": Demo(
         summary="a small, ripe berry: what it needs is felt, and 0.3 N hold it",
         offset_mm=(0.0, -5.2),
-        actions=(Primitive.MOVE_DOWN, *(_RISE,) * 2),
+        actions=(Primitive.MOVE_DOWN, *(_RISE,) * 3),
         end=EndReason.SUCCESS,
         seed=3,
         task="strawberry",

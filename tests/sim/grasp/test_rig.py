@@ -1,6 +1,7 @@
 """The simulated rig: what its devices refuse, what is drawn by a seed, and what stays hidden."""
 
 import dataclasses
+import time
 
 import numpy as np
 import pytest
@@ -147,6 +148,16 @@ def test_disconnected_devices_refuse():
         rig.gripper.grip(1.0)
     with pytest.raises(TouchError):
         rig.sensor.read()
+
+
+def test_computing_takes_no_simulated_time():
+    clock = build("strawberry", 5).clock
+    before = clock.monotonic(), clock.wall(), clock.stamp()
+    time.sleep(0.01)
+    assert (clock.monotonic(), clock.wall(), clock.stamp()) == before
+    clock.sleep(0.5)
+    assert clock.monotonic() - before[0] == pytest.approx(0.5)
+    assert clock.wall() - before[1] == pytest.approx(0.5, abs=1e-5)
 
 
 def test_simulated_motion_takes_simulated_time():
