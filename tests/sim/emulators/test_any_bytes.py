@@ -166,9 +166,12 @@ def pings(descriptor, servo_id, seconds=20.0):
         drain(descriptor)
         time.sleep(0.08)
         send_all(descriptor, dxl.packet(servo_id, bytes([dxl.PING])))
-        time.sleep(0.03)
-        if dxl.status(servo_id, 0)[:5] in drain(descriptor):
-            return True
+        answer, answered_s = b"", time.monotonic() + 1.0
+        while time.monotonic() < answered_s:
+            time.sleep(0.01)
+            answer += drain(descriptor)
+            if dxl.status(servo_id, 0)[:5] in answer:
+                return True
     return False
 
 
