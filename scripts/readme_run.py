@@ -20,12 +20,8 @@ PICTURE = ROOT / "docs/figures/strawberry.png"
 COMMAND = re.compile(r"^\$ tacgrasp (run .*--seed \d+)$", re.M)
 """The command of the README, whose lines follow up to the end of the block."""
 
-TIMES = (
-    (r"(?m)^( +\d+) +\d+\.\d s  ", r"\1  # s  "),
-    (r"steps, \d+\.\d s;", "steps, # s;"),
-    (r"episode: \S+", "episode: #"),
-)
-"""What follows the clock and so differs from run to run: times, and the episode's name."""
+EPISODE = re.compile(r"episode: \S+")
+"""What differs from run to run: the episode's name, which holds its date."""
 
 
 def shown(readme: str) -> tuple[str, int, int]:
@@ -49,11 +45,9 @@ def printed(command: str, folder: Path) -> str:
     return text.getvalue().replace(f"{folder}/", "episodes/")
 
 
-def without_times(lines: str) -> str:
-    """Lines of a run without what follows the clock."""
-    for pattern, instead in TIMES:
-        lines = re.sub(pattern, instead, lines)
-    return lines
+def without_episode(lines: str) -> str:
+    """Lines of a run without the name of its episode."""
+    return EPISODE.sub("episode: #", lines)
 
 
 def write() -> None:

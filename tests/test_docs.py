@@ -127,6 +127,6 @@ def test_the_readme_shows_a_run_as_it_prints_now(tmp_path):
     text = (ROOT / "README.md").read_text()
     command, begin, end = readme.shown(text)
     printed = readme.printed(command, tmp_path)
-    shown = readme.without_times(text[begin:end])
+    shown = readme.without_episode(text[begin:end])
     assert "success" in shown
-    assert readme.without_times(printed) == shown, "python scripts/readme_run.py writes it anew"
+    assert readme.without_episode(printed) == shown, "python scripts/readme_run.py writes it anew"
