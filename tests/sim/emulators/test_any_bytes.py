@@ -156,7 +156,7 @@ def drain(descriptor):
         return b""
 
 
-def pings(descriptor, servo_id, seconds=20.0):
+def pings(descriptor, servo_id, before_each=lambda: None, seconds=20.0):
     """Whether a servo answers a ping after the line has been quiet.
 
     On a busy computer the emulator may still be working off what was sent before.
@@ -165,12 +165,13 @@ def pings(descriptor, servo_id, seconds=20.0):
     while time.monotonic() < deadline_s:
         drain(descriptor)
         time.sleep(0.08)
+        before_each()
         send_all(descriptor, dxl.packet(servo_id, bytes([dxl.PING])))
         answer, answered_s = b"", time.monotonic() + 1.0
         while time.monotonic() < answered_s:
             time.sleep(0.01)
             answer += drain(descriptor)
-            if dxl.status(servo_id, 0)[:5] in answer:
+            if dxl.status(servo_id, 0, bytes(3))[:8] in answer:  # model and firmware
                 return True
     return False
 
@@ -185,11 +186,14 @@ def test_a_bus_outlives_mutated_instructions(no_errors, model):
             drain(descriptor)
         emulator.facts()
         assert emulator._thread.is_alive()
-        # Ids and baud rates may have been written: any servo that still hears us answers.
-        with emulator._lock:
-            for servo in emulator._servos:
-                servo.table[7], servo.table[8], servo.table[68] = 1, 3, 2
-        assert pings(descriptor, 1)
+
+        def restore():
+            """Ids and baud rates may have been written, and may be yet."""
+            with emulator._lock:
+                for servo in emulator._servos:
+                    servo.table[7], servo.table[8], servo.table[68] = 1, 3, 2
+
+        assert pings(descriptor, 1, before_each=restore)
         os.close(descriptor)
     finally:
         emulator.close()
