@@ -78,6 +78,14 @@ _TOO = re.compile(
 _NEVER_TOO = re.compile(
     r"\b(?:can|could) (?:not|never|hardly)((?: \w+){0,4}?) (?:too|over(?:ly)?)\b"
 )
+_MILDLY = re.compile(
+    r"\b((\w{4,}?)(?:ly|le)?),? (?:but|though|yet|and)(?: please)? (?:not|never)(?: hold it| grip it)? (?:too|over(?:ly)?) \2(?:ly|le)?\b"
+)
+"""'Firm, but not too firm' is firm."""
+_JUST_ENOUGH = re.compile(
+    r"\b(?!just)(\w{4,}?)(?:ly)? enough\b([^.;]*?),? (?:but |and |yet )?(?:no|not)(?: any| a bit)? (?:\1e?r|more)\b"
+)
+"""'Tight enough that it stays, but not tighter' is just enough."""
 _RATHER = re.compile(
     r"\b(?:rather|better|sooner|prefer\w*)\b(?: \w+)*? (?:too )?(\w+) than (?:too |be |being )?(?!usual|normal|before|last|that|this|it\b|standard|the\b|you)\w+"
 )
@@ -91,6 +99,12 @@ _COMPLAINT = re.compile(
 _BREAK = re.compile(
     rf"\b(?:and|so) (?=(?:please |just |then |only |really )?(?:{words.any_of('hold')}|be|use|go|ease|make|do|try|give|that|get|stay)\b)"
 )
+_AS_BEFORE = re.compile(
+    r"^\w* as (?:it |they |that )?(?:is |was |were )?(?:usual|normal|always|ever|before|last|the last|the previous|yesterday|"
+    r"you (?:usually|normally|always|did|do|were|need|must|have to)|needed|necessary|required|need be|it (?:takes|needs|was|has to))\b"
+)
+"""After 'as hard': as the task has it."""
+
 _REACH = 60
 """Characters before a cue in which a denial turns it. Our choice: about ten words."""
 
@@ -129,6 +143,7 @@ def _cues(sentence: str, asks: bool) -> Iterator[Cue]:
     if asks and re.match(r"^(?:and )?(?:i said|did i say|who said|you said)\b", sentence):
         return
     sentence = without_neutral(sentence)
+    sentence = _JUST_ENOUGH.sub(r"just enough\2", _MILDLY.sub(r"\1", sentence))
     sentence = _NEVER_TOO.sub(r"\1 ", sentence)
     sentence = _RATHER.sub(r" \1 ", sentence)
     sentence = _TOO.sub(r"\1\2", sentence)
@@ -154,6 +169,8 @@ def _clause_cues(clause: str) -> Iterator[Cue]:
         after_and = before.rpartition(" and ")[2]
         before = after_and if _DENIAL.search(after_and) else before
         denials = list(_DENIAL.finditer(before)) if turns else []
+        if not denials and before.endswith("as ") and _AS_BEFORE.match(clause[end:]):
+            continue
         turned = len(denials) % 2 == 1
         if turns and not denials and _COMPLAINT.search(masked[:start]):
             turned = True

@@ -95,7 +95,7 @@ def in_digits(text: str) -> str:
         lambda m: f"{int(m[1] or 1) + _part(m[2]):.6g} newtons",
         text,
     )
-    text = re.sub(r"\bbetween (?:one|1) half and\b", "between 0.5 and", text)
+    text = re.sub(r"\bbetween (?:(?:an?|one|1) )?half and(?= \d)", "between 0.5 and", text)
     text = re.sub(rf"\b(?:(an?|\d+)[ -])?({_PART})\b{_OF_A}{_UNIT}", _fraction, text)
     text = re.sub(
         r"\b(\d)/(\d)" + _OF_A + _UNIT,

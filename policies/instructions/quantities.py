@@ -11,10 +11,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Literal
 
+from policies.instructions.elisions import written_out
+from policies.instructions.force_units import ALONE, LOOSE, NUMBER, UNIT, in_newtons, number
 from policies.instructions.numerals import in_digits
-
-GRAM_N = 9.80665e-3
-"""Weight of a gram [N] at standard gravity (CGPM 1901)."""
 
 MARK = "#"
 """Stands for a quantity in the rest of a text."""
@@ -49,7 +48,9 @@ class Quantities:
         slip_mm, depth_mm: Largest slip, and depth, that are named [mm]; None where none is.
         area_fraction: Part of the pad in contact that is named; None where none is.
         pressure: Words of a pressure that is named in place of a force; '' for none.
-        unitless: A number that stands where a force would, without a unit; '' for none.
+        unitless: A number that stands where a force would, without a unit, or a percentage of
+            nothing; '' for none.
+        denied: Words of a force that is not to be used, where no other one is named; '' for none.
         rest: The plain text with each quantity and its relation replaced by ``MARK``.
     """
 
@@ -62,76 +63,51 @@ class Quantities:
     area_fraction: float | None = None
     pressure: str = ""
     unitless: str = ""
+    denied: str = ""
     rest: str = ""
 
 
-_GRIP = (
-    r"(?:the )?(?:grip(?:ping)?|clamp(?:ing)?|squeez(?:e|ing)|finger|contact|holding|hand)?[ -]?"
-)
-_OF_FORCE = rf"[ -]*(?:of )?{_GRIP}(?:force|grip|pressure|squeeze|clamp)"
-_KILO = r"(?:kilo(?:gram(?:me)?)?s?|kgs?)"
-_GRAM = r"(?:gram(?:me)?s?|gr?)"
-_UNITS: tuple[tuple[str, float], ...] = (
-    (r"(?:kilo-?\s?newtons?|kn)", 1000.0),
-    (r"(?:mill?i-?\s?n[ew]+t[a-z]{0,3}ns?|mn)", 1e-3),
-    (r"(?:centi-?\s?newtons?|cn)", 1e-2),
-    (r"(?:n[ew]+t[a-z]{0,3}ns?|netwons?|newtos?|n)", 1.0),
-    (rf"(?:{_KILO}{_OF_FORCE}|kgf|{_KILO}[ -]f(?:orce)?|kilo(?:gram)?-?force|kiloponds?)", 1000 * GRAM_N),
-    (rf"(?:{_GRAM}{_OF_FORCE}|{_GRAM}[ -]weight|gf|{_GRAM}[ -]f(?:orce)?|gram-?force|ponds?)", GRAM_N),
-    (rf"(?:(?:pounds?|lbs?){_OF_FORCE}|lbf)", 453.59237 * GRAM_N),
-    (rf"(?:(?:ounces?|oz){_OF_FORCE}|ozf)", 28.349523 * GRAM_N),
-)  # fmt: skip
-_MASSES = ((_KILO, 1000 * GRAM_N), (_GRAM, GRAM_N))
-"""Masses stand for a force only after a word such as 'with' or 'at most'."""
-_UNIT = "|".join(unit for unit, _ in _UNITS)
-_LOOSE = "|".join(unit for unit, _ in _MASSES)
-_ALONE = r"(?<![\d.,])"
-_NUMBER = (
-    _ALONE
-    + r"(?:\d{1,3}(?:,\d{3})+(?:\.\d+)?|\d{1,12}(?:[.,]\d{1,12})?|\.\d{1,12})(?:e[+-]?\d{1,2})?(?![.,]?\d)"
-)
 _SIGNED = (
-    rf"(?:(?<![\w.])(?:-|minus |negative )\s?)?(?:{_NUMBER}|infinite|infinity|unlimited|inf|nan)"
+    rf"(?:(?<![\w.])(?:-|minus |negative )\s?)?(?:{NUMBER}|infinite|infinity|unlimited|inf|nan)"
 )
 _LINK = r"\s*(?:-|–|—|\.\.\.?|…|,|\bup to\b|\bto\b|\bthrough\b|\btill\b|\band\b)\s*"
-_TOLERANCE = rf"\s*,?\s*(?:±|\+/?-|plus or minus|plus/minus|give or take|within)\s*(?:{_NUMBER})\s*(?:%|percent|{_UNIT}\b)?"
+_TOLERANCE = rf"\s*,?\s*(?:±|\+/?-|plus or minus|plus/minus|give or take|within)\s*(?:{NUMBER})\s*(?:%|percent|{UNIT}\b)?"
 
 _RANGE = re.compile(
     rf"(?P<pre>\b(?:betw\w*|from|within|inside|range(?: of)?|window(?: of)?|in)\s*\[?\s*|\[\s*)?"
-    rf"(?P<a>{_NUMBER})\s*(?P<ua>(?:{_UNIT}|{_LOOSE})\b)?(?P<link>{_LINK})"
-    rf"(?P<b>{_NUMBER.removeprefix(_ALONE)})\s*\]?\s*-?(?P<ub>(?:{_UNIT}|{_LOOSE})\b)"
+    rf"(?P<a>{NUMBER})\s*(?P<ua>(?:{UNIT}|{LOOSE})\b)?(?P<link>{_LINK})"
+    rf"(?P<b>{NUMBER.removeprefix(ALONE)})\s*\]?\s*-?(?P<ub>(?:{UNIT}|{LOOSE})\b)"
 )
 _FORCE = re.compile(
-    rf"\(?(?P<a>{_SIGNED})(?:\s*(?:±|\+/?-)\s*(?:{_NUMBER})\s*)?\)?\s*-?\s*(?P<ua>(?:{_UNIT}|{_LOOSE})\b)(?:{_TOLERANCE})?"
+    rf"\(?(?P<a>{_SIGNED})(?:\s*(?:±|\+/?-)\s*(?:{NUMBER})\s*)?\)?\s*-?\s*(?P<ua>(?:{UNIT}|{LOOSE})\b)(?:{_TOLERANCE})?"
 )
 _ELLIPSIS = re.compile(
-    rf"\b(?:not|no) (?:an?|1|one|a single) (millinewton|newton|gram|mn|n|gf) (more|less)(?: than)? ({_NUMBER})(?!\s*(?:{_UNIT})\b)"
+    rf"\b(?:not|no) (?:an?|1|one|a single) (millinewton|newton|gram|mn|n|gf) (more|less)(?: than)? ({NUMBER})(?!\s*(?:{UNIT})\b)"
 )
 _MARGIN = re.compile(
-    rf"(?:,|\bwith|\band)?\s*\b(?:a |the )?(?:tolerance|margin|slack|error|accuracy|precision)(?: of| is|:)?\s*(?:±\s*)?{_NUMBER}\s*(?:%|percent|(?:{_UNIT})\b)"
+    rf"(?:,|\bwith|\band)?\s*\b(?:a |the )?(?:tolerance|margin|slack|error|accuracy|precision)(?: of| is|:)?\s*(?:±\s*)?{NUMBER}\s*(?:%|percent|(?:{UNIT})\b)"
 )
 _CHAIN = re.compile(
-    rf"({_NUMBER})\s*(?:{_UNIT})?\s*<=?\s*(?:f|force|it|x|grip)\s*<=?\s*({_NUMBER})\s*((?:{_UNIT})\b)"
+    rf"({NUMBER})\s*(?:{UNIT})?\s*<=?\s*(?:f|force|it|x|grip)\s*<=?\s*({NUMBER})\s*((?:{UNIT})\b)"
 )
-_PAIR = re.compile(rf"[\[(]\s*({_NUMBER})\s*[,;]\s+({_NUMBER})\s*[\])]\s*((?:{_UNIT})\b)")
-_ELIDED = re.compile(
-    rf"((?:at least|no less than|not less than|minimum|min\.?|at most|no more than|not more than|maximum|max\.?|under|over|above|below) {_NUMBER})"
-    rf"(,? (?:and |but |yet )?(?:at least|no less than|not less than|minimum|min\.?|at most|no more than|not more than|maximum|max\.?|under|over|above|below) {_NUMBER} )((?:{_UNIT})\b)"
-)
+_PAIR = re.compile(rf"[\[(]\s*({NUMBER})\s*[,;]\s+({NUMBER})\s*[\])]\s*((?:{UNIT})\b)")
 _PRESSURE = re.compile(
-    rf"(?:{_NUMBER})\s*(?:[kmh]?pa\b|(?:kilo|mega|milli|hecto)?pascals?|m?bars?\b|psi\b|mm\s?hg|atm\b|"
+    rf"(?:{NUMBER})\s*(?:[kmh]?pa\b|(?:kilo|mega|milli|hecto)?pascals?|m?bars?\b|psi\b|mm\s?hg|atm\b|"
     r"n ?(?:/|per) ?(?:square )?[cm]m)"
 )
-_LENGTH = re.compile(rf"(?P<a>{_NUMBER})\s*(?P<u>mm|millimet\w+|µm|μm|um|microns?|micromet\w+)\b")
+_PERCENT_OF_NOTHING = re.compile(
+    rf"\b(?:with|at|use|using|apply|to) ({NUMBER}\s*(?:%|percent|per cent))(?=\s*(?:$|[.,;!]| please| and| force\b))"
+)
+_LENGTH = re.compile(rf"(?P<a>{NUMBER})\s*(?P<u>mm|millimet\w+|µm|μm|um|microns?|micromet\w+)\b")
 _AREA = re.compile(
-    rf"(?P<a>{_NUMBER})\s*(?:%|percent|per cent) (?:of )?(?:the )?(?:\w+ )?(?:pad|area|gel|sensor)"
+    rf"(?P<a>{NUMBER})\s*(?:%|percent|per cent) (?:of )?(?:the )?(?:\w+ )?(?:pad|area|gel|sensor)"
 )
 
 _FIRMER = r"(?:harder|firmer|tighter|stronger|heavier|larger|bigger|greater|higher)"
 _SOFTER = r"(?:softer|gentler|lighter|weaker|looser|lower|smaller|fewer)"
 _ABOVE = re.compile(
     rf"\b(?:over|above|beyond|past|exceed(?:s|ed|ing)?|surpass\w*|in excess of|north of|upwards? of|"
-    rf"pass(?:es|ing)?|topp?(?:ing)?|(?:any |a \w+ |\w+ )?more(?: \w+)? than|{_FIRMER}(?: \w+)? than)"
+    rf"pass(?:es|ing)?|topp?(?:ing)?|(?:any |a \w+ |\w+ )?more(?: \w+)? than|{_FIRMER}(?: \w+)? than(?: you would)?(?: with| at)?)"
     r"(?: the| a| of)?\s*$|>\s*$"
 )
 _BELOW = re.compile(
@@ -139,13 +115,13 @@ _BELOW = re.compile(
     r"shy of|sub)(?: the| a)?\s*-?$|<\s*$"
 )
 _MOST = re.compile(
-    r"(?:\b(?:less|lower|smaller) than or equal to|\b(?:at|under|below) or (?:under|below|at)|\b(?:ends|tops out|finish\w*|finishes)(?: \w+){0,3} (?:at|before)|\bstop\w*(?: \w+){0,3} (?:before|short of)|"
+    r"(?:\b(?:less|lower|smaller) than or equal to|\b(?:at|under|below) or (?:under|below|at)|\b(?:ends|tops out|finish\w*|finishes)(?: \w+){0,3} (?:at|before)|\bstop\w*(?: \w+){0,3} (?:before|short of)|\bstop (?:squeez|press)ing at|"
     r"\bat (?:the )?(?:very |absolute )?most|\batmost|\bhard stop(?: at| of| is)?|\bup to|\b(?:as (?:hard|much|high|firm|far) as|no further than)|"
     r"\bmax(?:imum|imal(?:ly)?|ed)?\.?(?: \w+){0,3}?(?: of| is| at| to|:| =|=)?|"
     r"\blimit(?:s|ed|ing)?(?: \w+){0,3}?(?: to| of| at| is|:| =|=)?|"
     r"\bcap(?:ped|ping)?(?: \w+){0,3}?(?: at| to| of| is|:| =|=)?|\bceiling(?: of| is| at|:| =|=)?|"
     r"\bupper (?:\w+ )?(?:limit|bound|end)(?: \w+){0,2}?(?: of| is| at|:| =|=)?|\bpeak(?: \w+){0,2}?(?: of| is| at|:| =|=)?|"
-    r"<=|≤|=<|\bnot to exceed|\bwithin|\bbounded (?:above )?(?:by|at)|\b(?:not|never)(?: let it)? (?:go|push|squeeze|press)(?: \w{1,4})?|\btop out at|\bno more than|\bf_?max\s*=)"
+    r"<=|≤|=<|\bnot to exceed|\bwithin|\bbounded (?:above )?(?:by|at)|\b(?:not|never)(?: let it)? (?:go|push|squeeze|press)(?: \w{1,4})?|\btop out at|\bno more than|\bnowhere near|\bfar (?:away )?from|\b(?:not|never)(?: (?:even|anywhere|get|go|come|be))* (?:close|near)(?: to)?|\bf_?max\s*=)"
     r"(?: (?:about|around|roughly))?\s*$"
 )
 _LEAST = re.compile(
@@ -158,6 +134,7 @@ _LEAST = re.compile(
 _OTHERS = r"(?!(?: than| of| is| to|:| =)?(?: (?:about|around|roughly))?(?: an?)? ?(?:\d|\.\d))"
 """Ends a bound after a number: '2 N, at most 2.2 N' bounds the second number, not the first."""
 
+_HARMS = r"(?:gives? (?:way|in)|fail|yield|suffer|complain|leak|collapse|spoil|bruis|crush|squash|burst|break|split|crack|damag|mark|dent|pop|hurt|mush|ruin|spoil|tear|pulp)\w*"
 _MOST_AFTER = re.compile(
     r"\s*(?:-|–|,|:)?\s*(?:(?:at |as )?(?:a |the )?max(?:imum|imal)?\b(?!\.?(?: of| is|:| =)? ?\d)|tops\b|at (?:the )?(?:very |absolute )?most\b|"
     r"(?:or|and) (?:less|below|under|lower|lighter|softer|gentler|smaller)\b|(?: [a-z]+){1,3} at (?:the )?(?:very |absolute )?most\b|"
@@ -165,8 +142,8 @@ _MOST_AFTER = re.compile(
     r"(?:,? ?and )?(?:absolutely )?(?:no|not|never)(?! need)(?: \w+){0,2} (?:more|higher|harder|above|over|further|beyond)\b"
     r"(?!,? (?:and |or )?(?:no|not|nor|never)(?: \w+)? less)(?! (?:no|not) less)|"
     r"(?:is|as|being)(?: \w+){0,3} (?:limit|max(?:imum)?|ceiling|cap|most)\b|(?:limit|ceiling|cap)\b(?!(?: of| is|:| =)? ?\d)|"
-    r"(?:is|would be|are|will be) (?:already |way |far )?too (?:much|hard|firm|high|strong)|and under\b)"
-    + _OTHERS
+    r"(?:is|would be|are|will be) (?:already |way |far )?too (?:much|hard|firm|high|strong)|and under\b|"
+    rf"(?:will|would|is where \w+|is when \w+) (?:already |surely )?{_HARMS})" + _OTHERS
 )
 _LEAST_AFTER = re.compile(
     r"\s*(?:-|–|,|:|\+)?\s*(?:(?:at |as )?(?:a |the )?min(?:imum)?\b(?!\.?(?: of| is|:| =)? ?\d)|(?:(?:or|and) )?upwards?\b|(?:or|and) (?:more|above|higher|over|harder|firmer|better|greater|larger|up|upwards?)\b|(?: [a-z]+){1,3} at (?:the )?(?:very |absolute )?least\b|[;,.]? ?(?:and )?(?:do not|never|not|but not) (?:\w+ ){0,2}(?:under|below|beneath|lower than) (?:it|that|this)\b|"
@@ -207,6 +184,13 @@ _IF = re.compile(r"(?<!appreciate it )(?<!like it )(?<!good )\bif (?:you|it|the 
 _DROPPED = re.compile(
     r"\b(?:not|never|instead of|rather than|forget(?: about)?|isn't|skip|no longer|nor)(?: (?:at|the|with|use|using|to|about|exactly))*\s*$"
 )
+_NOT_WITH = re.compile(
+    r"\b(?<!why )(?<!why do )(?:not(?! you (?:just |please )?(?:use|hold|keep|grip|grasp|take|try|go|apply)\b)|never|no|avoid\w*|refrain from)"
+    r"(?: (?:ever|want|like|dare|you|to|hold|keep|grip|grasp|pinch|pick|take|lift|set|go|apply|use|using|it|this|that|the|"
+    r"(?:straw ?)?berry|fruit|one|at|with|a|force|of|for|exactly|about|around))*\s*$"
+)
+"""Before a force: it is not to be used."""
+
 _RISE = re.compile(
     r"\b(?:bring|take|raise|get|ramp|crank|turn|increase|dial|build|work|go)(?: (?:it|this|that|the \w+))?\s*$"
 )
@@ -220,13 +204,12 @@ _PAST = re.compile(
     r"\b(?:last (?:time|one|run|trial|try|berry)|yesterday|previous(?:ly)?|before|earlier|used to|was|were|had|"
     r"slipped|slid|crushed|squashed|bruised|dropped|tried|went|did)\b"
 )
-_HARMS = r"(?:gives? (?:way|in)|fail|yield|suffer|complain|leak|collapse|spoil|bruis|crush|squash|burst|break|split|crack|damag|mark|dent|pop|hurt|mush|ruin|spoil|tear|pulp)\w*"
 _SLIPS = r"(?:slips?|falls?|drops?|slides?|turns?|gets? away|wobbles?)"
 _HARMED = re.compile(
     rf"\b{_HARMS}(?: \w+){{0,3}} (?:above|over|beyond|past|at|from|with more than|after)\s*$"
 )
 _SLIPPING = re.compile(
-    rf"\b(?:it|berry|fruit|one|this|thing|they|and|or|these|berries) {_SLIPS}(?: \w+){{0,3}} (?:under|below|at|with less than)\s*$"
+    rf"(?:^|[,;:]|\b(?:it|berry|fruit|one|this|thing|they|and|or|but|these|berries)) ?{_SLIPS}(?: \w+){{0,3}} (?:under|below|at|with less than)\s*$"
 )
 _TOO_MUCH = re.compile(
     rf"[^.;#]{{0,20}}\b(?:too much|forbidden|not allowed|prohibited|out of|off limits|unacceptable|no go|a no-no|not ok\w*|{_HARMS})"
@@ -248,19 +231,21 @@ _THING = re.compile(
 def read_quantities(text: str) -> Quantities:
     """Read the numbers of a plain text (``policies.instructions.text.plain``)."""
     text = _ELLIPSIS.sub(r"no \2 than \3 \1", in_digits(text))
-    text = re.sub(rf"({_NUMBER}), (?=newtons?\b)", r"\1 ", text)
+    text = re.sub(rf"({NUMBER}), (?=newtons?\b)", r"\1 ", text)
     text = re.sub(r"(?<=\d)['\u00a0\u202f ](?=\d{3}\b(?! ?mm))", "", text)  # 1 400 mN
-    text = re.sub(rf"({_NUMBER})\s?-?ish\b", r"\1", text)
+    text = re.sub(rf"({NUMBER})\s?-?ish\b", r"\1", text)
     text = _MARGIN.sub(" ", text)
     text = _CHAIN.sub(r"between \1 and \2 \3", text)
     text = _PAIR.sub(r"between \1 and \2 \3", text)
-    text = _ELIDED.sub(r"\1 \3\2\3", text)
+    text, unitless = written_out(text)
     pressure = _PRESSURE.search(text)
     slip_mm, depth_mm = _lengths(text)
     area = _AREA.search(text)
     delta_n, text = _delta(text)
-    forces, text = _forces(text)
+    forces, denied, text = _forces(text)
     factor, factor_words, text = _factor(text)
+    if factor is None and area is None and (part := _PERCENT_OF_NOTHING.search(text)):
+        unitless = unitless or part[1]
     return Quantities(
         forces=tuple(forces),
         delta_n=delta_n,
@@ -268,16 +253,17 @@ def read_quantities(text: str) -> Quantities:
         factor_words=factor_words,
         slip_mm=slip_mm,
         depth_mm=depth_mm,
-        area_fraction=None if area is None else _number(area["a"]) / 100,
+        area_fraction=None if area is None else number(area["a"]) / 100,
         pressure="" if pressure is None else pressure[0],
-        unitless=_unitless(text),
+        unitless=unitless,
+        denied=denied,
         rest=text,
     )
 
 
 def _delta(text: str) -> tuple[float | None, str]:
     """Force to add to the task's [N], and the text without it."""
-    one = rf"(?P<a>{_NUMBER})\s*(?P<u>(?:{_UNIT})\b)"
+    one = rf"(?P<a>{NUMBER})\s*(?P<u>(?:{UNIT})\b)"
     for pattern, sign in (
         (
             rf"{one} (?:more|harder|firmer|tighter|extra|higher|above|over)(?= (?:than |the |your )*(?:usual|normal|standard|default|last|before|that)|[.,!]*$| please)",
@@ -298,12 +284,13 @@ def _delta(text: str) -> tuple[float | None, str]:
     ):
         if match := re.search(pattern, text):
             rest = f"{text[: match.start()]} {MARK} {text[match.end() :]}"
-            return sign * _newtons(match["a"], match["u"]), " ".join(rest.split())
+            return sign * in_newtons(match["a"], match["u"]), " ".join(rest.split())
     return None, text
 
 
-def _forces(text: str) -> tuple[list[Force], str]:
-    """Forces of a text, and the text with ``MARK`` in their places."""
+def _forces(text: str) -> tuple[list[Force], str, str]:
+    """Forces of a text, words of the one that it only denies, the text with ``MARK`` for each."""
+    denied = ""
     found: list[tuple[Force, bool]] = []  # a force, and whether it is of the past or denied
     rest, end = "", 0
     for start, stop, ends in _matches(text):
@@ -326,9 +313,13 @@ def _forces(text: str) -> tuple[list[Force], str]:
             ]
         else:
             kind, left_cut, right_cut = _relation(left, right)
-            words = f"{left[left_cut:]}{words}{right[:right_cut]}".strip(" ,:-")
+            words = (
+                f"{left[left_cut:]}{words}{right[:right_cut]}".strip(" ,:")
+                .removeprefix("- ")
+                .rstrip(" -")
+            )
             left, stop = left[:left_cut], stop + right_cut
-            before = re.split(r"[.;,]\s", left)[-1]
+            before = re.split(r"[.;,]\s|\bbut\b", left)[-1]
             clause = before + re.split(r"[.;,]\s?", text[stop:], maxsplit=1)[0]
             is_denied = kind == "value" and bool(_DROPPED.search(left) or _NOT.search(before))
             if _CORRECTION.search(left) or _CORRECTION.match(text[stop:].lstrip(" .,;-–—")):
@@ -338,12 +329,17 @@ def _forces(text: str) -> tuple[list[Force], str]:
                         kind = _kind_corrected([force for force, _ in found])
                     found = [(force, False) for force, _ in found]
             kept = not (_PAST.search(clause) or is_denied)
+            if kind == "value" and _NOT_WITH.search(left):
+                denied = words
             found.append((Force(kind=kind, value_n=ends[0], words=words), kept))
         rest, end = f"{rest}{left} {MARK} ", stop
     rest = " ".join((rest + text[end:]).split())
-    kept_forces = [force for force, kept in found if kept] or [force for force, _ in found]
+    kept_forces = [force for force, kept in found if kept]
+    if denied and not kept_forces:
+        return [], denied, rest
+    kept_forces = kept_forces or [force for force, _ in found]
     bounds = {force.value_n for force in kept_forces if force.kind != "value"}
-    return [f for f in kept_forces if f.kind != "value" or f.value_n not in bounds], rest
+    return [f for f in kept_forces if f.kind != "value" or f.value_n not in bounds], "", rest
 
 
 def _kind_corrected(found: list[Force]) -> Kind:
@@ -362,11 +358,15 @@ def _matches(text: str) -> Iterator[tuple[int, int, list[float]]]:
         if span and (not one or span.start() <= one.start()) and _is_range(span, text):
             unit = span["ub"]
             first = span["ua"] or unit
-            yield span.start(), span.end(), [_newtons(span["a"], first), _newtons(span["b"], unit)]
+            yield (
+                span.start(),
+                span.end(),
+                [in_newtons(span["a"], first), in_newtons(span["b"], unit)],
+            )
             at = span.end()
         elif one:
             if _is_force(one, text):
-                yield one.start(), one.end(), [_newtons(one["a"], one["ua"])]
+                yield one.start(), one.end(), [in_newtons(one["a"], one["ua"])]
             at = one.end()
         else:
             return
@@ -394,7 +394,7 @@ def _is_force(match: re.Match[str], text: str) -> bool:
 
 
 def _is_loose(unit: str) -> bool:
-    return not re.fullmatch(_UNIT, unit)
+    return not re.fullmatch(UNIT, unit)
 
 
 def _relation(left: str, right: str) -> tuple[Kind, int, int]:
@@ -444,26 +444,6 @@ def _relation(left: str, right: str) -> tuple[Kind, int, int]:
     return "value", len(left), 0
 
 
-def _newtons(number: str, unit: str) -> float:
-    if number.strip("- ") in ("infinite", "infinity", "unlimited", "inf", "nan"):
-        return float("inf")
-    for pattern, newtons in (*_UNITS, *_MASSES):
-        if re.fullmatch(pattern, unit):
-            return _number(number) * newtons
-    raise ValueError(f"no unit of force: {unit!r}")
-
-
-def _number(text: str) -> float:
-    """A number with a decimal point or comma; '15,000' and '1.500.000' have separators."""
-    sign = -1 if re.match(r"-|minus|negative", text) else 1
-    text = re.sub(r"^(?:-|minus|negative)\s*", "", text)
-    if re.fullmatch(r"\d{1,3}(?:,\d{3})+(?:\.\d+)?", text) and not text.startswith("0,"):
-        text = text.replace(",", "")
-    elif re.fullmatch(r"\d{1,3}(?:\.\d{3}){2,}", text):
-        text = text.replace(".", "")
-    return sign * float(text.replace(",", "."))
-
-
 _USUAL = r"(?:the |your |its |that |what (?:you|is) |our |as )"
 _HOW = r"(?:hard|firm(?:ly)?|tight(?:ly)?|strong(?:ly)?|much|gentl[ey]|soft(?:ly)?|light(?:ly)?|forceful(?:ly)?)"
 _UP = r"(?:more|harder|firmer|tighter|stronger|higher|above|extra|over|up|heavier)"
@@ -476,21 +456,21 @@ _DENOMINATORS = {"half": 2, "third": 3, "quarter": 4, "fifth": 5, "tenth": 10}
 
 def _factor(text: str) -> tuple[float | None, str, str]:
     """Factor on the task's force that a text names, its words, and the text without them."""
-    percent = rf"(?P<p>{_NUMBER})\s*(?:%|percent|per cent)"
+    percent = rf"(?P<p>{NUMBER})\s*(?:%|percent|per cent)"
     for pattern, value in (
         (rf"\b(?:{_GO_UP}|{_UP})\b[^.;#]{{0,40}}?by (?:about |around )?(?:a )?half\b", lambda m: 1.5),
         (rf"half (?:again as {_HOW}|as {_HOW} again)", lambda m: 1.5),
-        (rf"(?P<x>{_NUMBER})\s*(?:times|x|×) (?:as {_HOW}|{_USUAL})(?: as)?", lambda m: _number(m["x"])),
+        (rf"(?P<x>{NUMBER})\s*(?:times|x|×) (?:as {_HOW}|{_USUAL})(?: as)?", lambda m: number(m["x"])),
         (rf"(?:twice|double|2 times|two times) (?:as {_HOW}|{_USUAL})|\bdouble (?:up )?(?:the|your)", lambda m: 2.0),
         (rf"(?:three times|triple|thrice) (?:as {_HOW}|{_USUAL})|\btriple (?:the|your)", lambda m: 3.0),
         (rf"(?:half|0\.5) as {_HOW}|\bhalf {_USUAL}|\bhalf (?:of )?{_USUAL}|\b(?:in|by) half\b|\bhalve\b|\bhalf (?:the )?(?:force|grip|strength|pressure|power|squeeze)", lambda m: 0.5),
-        (rf"(?:another|an extra|extra|additional|add|plus) {_NUMBER}\s*(?:%|percent|per cent)|{_NUMBER}\s*(?:%|percent|per cent) (?:on top|extra)", lambda m: 1 + _percent(m) / 100),
+        (rf"(?:another|an extra|extra|additional|add|plus) {NUMBER}\s*(?:%|percent|per cent)|{NUMBER}\s*(?:%|percent|per cent) (?:on top|extra)", lambda m: 1 + _percent(m) / 100),
         (r"\bto (?:about |around |roughly )?half\b", lambda m: 0.5),
-        (rf"{percent} {_UP}", lambda m: 1 + _number(m["p"]) / 100),
-        (rf"{percent} {_DOWN}", lambda m: 1 - _number(m["p"]) / 100),
-        (rf"\b(?:{_GO_UP}|{_UP})\b[^.;#]{{0,40}}?by (?:about |around )?{percent}", lambda m: 1 + _number(m["p"]) / 100),
-        (rf"\b(?:{_GO_DOWN}|{_DOWN})\b[^.;#]{{0,40}}?by (?:about |around )?{percent}", lambda m: 1 - _number(m["p"]) / 100),
-        (rf"{percent} (?:of )?(?:{_USUAL}|usual|normal|full|standard|default)", lambda m: _number(m["p"]) / 100),
+        (rf"{percent} {_UP}", lambda m: 1 + number(m["p"]) / 100),
+        (rf"{percent} {_DOWN}", lambda m: 1 - number(m["p"]) / 100),
+        (rf"\b(?:{_GO_UP}|{_UP})\b[^.;#]{{0,40}}?by (?:about |around )?{percent}", lambda m: 1 + number(m["p"]) / 100),
+        (rf"\b(?:{_GO_DOWN}|{_DOWN})\b[^.;#]{{0,40}}?by (?:about |around )?{percent}", lambda m: 1 - number(m["p"]) / 100),
+        (rf"{percent} (?:of )?(?:{_USUAL}|usual|normal|full|standard|default)", lambda m: number(m["p"]) / 100),
         (rf"{_FRACTION} {_UP}", lambda m: 1 + _part(m)),
         (rf"{_FRACTION} {_DOWN}", lambda m: 1 - _part(m)),
         (rf"\b(?:{_GO_UP}|{_UP})\b[^.;#]{{0,40}}?by (?:about |around )?{_FRACTION}", lambda m: 1 + _part(m)),
@@ -506,7 +486,7 @@ def _factor(text: str) -> tuple[float | None, str, str]:
 
 
 def _percent(match: re.Match[str]) -> float:
-    return _number(re.findall(_NUMBER, match[0])[0])
+    return number(re.findall(NUMBER, match[0])[0])
 
 
 def _part(match: re.Match[str]) -> float:
@@ -527,7 +507,7 @@ def _lengths(text: str) -> tuple[float | None, float | None]:
     """Slip and depth that a text names [mm]."""
     slip = depth = None
     for match in _LENGTH.finditer(text):
-        mm = _number(match["a"]) * (
+        mm = number(match["a"]) * (
             1e-3 if match["u"][0] in "µμu" or match["u"].startswith("mic") else 1.0
         )
         left, right = text[max(0, match.start() - 40) : match.start()], text[match.end() :][:25]
@@ -540,12 +520,3 @@ def _lengths(text: str) -> tuple[float | None, float | None]:
                 depth = mm
                 break
     return slip, depth
-
-
-def _unitless(text: str) -> str:
-    match = re.search(
-        rf"\b(?:with|use|using|apply|force(?: of| to|:| =|=)?|grip(?: of| at)|at a force of)\s+"
-        rf"(?:a force of )?({_NUMBER})\s*(?:$|[.!,;](?!\d)|please)",
-        text,
-    )
-    return match[1] if match else ""

@@ -50,7 +50,7 @@ _THING = re.compile(
 _VERB_OBJECT = re.compile(
     rf"\b{words.any_of('hold')}(?: (?:up|on|onto|hold|of|to|over|out|me|us|down|firm\w*|tight\w*|gent\w*|soft\w*|light\w*|and|or|\w+ing))*"
     rf"(?: (?:{words.any_of('fruit')}|the|#|my|your|our|\w+'s)\b| (?:a|an|another|some) (?:\w+ )?(?:straw ?berr(?:y|ies)|berr(?:y|ies)|fruit|one|specimen|sample|object|grip|grasp|hold)\b|(?=[.,;:!]|$| please| now| then| already| go| with| again| and))|"
-    r"\b(?:up with|let us|let me) (?:it|the|that|this|see)|\bgo (?:ahead|on|for it|get)\b|\bdo (?:it|the|your|a)\b(?! \w+ (?:dance|flip|dishes|laundry))|\bhave (?:it|at it|a go)\b|\b(?:want|need|like) (?:the|that|this|my|a) (?:\w+ )?(?:straw)?berry (?:in|between|held|picked|lifted|up|out|off|gripped|grasped)\b|\bgive it\b|\bproceed\b|\bstart\b|\bcommence\b|\bgo\b(?=[.!]*$)"
+    r"\b(?:up with|let us|let me) (?:it|the|that|this|see)|\bgo (?:ahead|on|for it|get)\b|\bdo (?:it|that|this|the|your|a)\b(?! \w+ (?:dance|flip|dishes|laundry))|\bhave (?:it|at it|a go)\b|\b(?:want|need|like) (?:the|that|this|my|a) (?:\w+ )?(?:straw)?berry (?:in|between|held|picked|lifted|up|out|off|gripped|grasped)\b|\bgive it\b|\bproceed\b|\bstart\b|\bcommence\b|\bgo\b(?=[.!]*$)"
 )
 _KEEP = re.compile(r"\b(?:not|never)(?: \w+){0,2} (?:let|releas\w*|drop|los\w*|stop)\b")
 _TURN = re.compile(
@@ -76,10 +76,12 @@ _THIS_WHILE = re.compile(
     rf"(?:please |can you |could you |would you |now |just )*{words.any_of('hold')}(?: up| on| on to)? (?:(?:the|that|this) (?:\w+ )?one\b|(?:it|this|that|these|one)\b(?= while| for me| and| so| until|,|$))"
 )
 _USUAL_GRIP = re.compile(
-    r"\b(?:standard|usual|normal|regular|default|same|ordinary) (?:old )?(?:grip|grasp|hold|force|pick)\b"
+    r"\b(?:standard|usual|normal|regular|default|same|ordinary) (?:old )?(?:grip|grasp|hold|force|pick)\b|"
+    r"^(?:please |just |do )*(?:the |it )?same(?: (?:procedure|way|thing|force|grip))? as (?:usual|before|last time|always)\b|"
+    r"\bas (?:hard|firm|tight|strong|soft|gent|light|careful|delicate)\w* as (?:usual|normal|before|last time|always|needed|necessary|required|it takes|you did)\b"
 )
 _SHORT = re.compile(
-    r"^(?=.*(?:berry|fruit|usual|standard|default))(?:(?:the|that|this|a|one|red|ripe|next|straw|berry|strawberry|fruit|please|up|now|ok|yo|hey|robot|go|usual|normal|standard|default|pick-?up|pick|grasp|lift)[ ,!.]*)+$"
+    r"^(?=.*(?:berry|fruit|usual|standard|default|next|again|another|one more))(?:(?:the|that|this|a|one|red|ripe|next|straw|berry|strawberry|fruit|please|up|now|ok|okay|alright|right|good|yo|hey|robot|go|and|then|usual|normal|standard|default|same|again|another|once|more|pick-?up|pick|grasp|lift)[ ,!.]*)+$"
 )
 
 
@@ -128,6 +130,7 @@ def _nothing_asked(numbers: Quantities) -> str:
         or numbers.factor is not None
         or numbers.pressure
         or numbers.unitless
+        or numbers.denied
     ):
         parts = sentences(numbers.rest)
         is_asked = any(

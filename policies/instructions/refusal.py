@@ -208,7 +208,7 @@ def _stops(text: str) -> str:
                 continue  # 'grip it and don't move'
             after = hold["after"]
             if (
-                has_manner(hold["verb"] + after)
+                has_manner(hold.group())
                 or re.search(r"\b(?:(?:so|too|that|as) (?:often|long)|much)\b", after)
                 or MARK in after
                 or _UNLESS.search(after)

@@ -4,7 +4,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from policies.instructions.quantities import GRAM_N
+from policies.instructions.force_units import GRAM_N
 from policies.instructions.reader import read_request
 from tests.policies.instructions.number_words import decimal_in_words, in_words
 
@@ -132,6 +132,78 @@ def test_a_range_is_a_least_and_a_most(sentence, words, low, wide):
     found = sorted(forces(text))
     assert [kind for kind, _ in found] == ["least", "most"], text
     assert [value for _, value in found] == pytest.approx(expected)
+
+
+UNIT_SAID_ONCE = (
+    "between {} N and {}",
+    "from {} N to {}",
+    "at least {} N but at most {}",
+    "no less than {}, no more than {} N",
+    "over {} and under {} N",
+    "above {} N, never above {}",
+    "{} N minimum and {} maximum",
+)
+
+
+@given(
+    sentence=st.sampled_from(SENTENCES[:3]),
+    words=st.sampled_from(UNIT_SAID_ONCE),
+    low=st.integers(1, 900),
+    wide=st.integers(5, 900),
+)
+def test_a_unit_that_is_said_once_counts_for_both_numbers(sentence, words, low, wide):
+    text = sentence.format(words.format(f"{low / 100:g}", f"{(low + wide) / 100:g}"))
+    found = sorted(forces(text))
+    assert [kind for kind, _ in found] == ["least", "most"], text
+    assert [value for _, value in found] == pytest.approx([low / 100, (low + wide) / 100])
+
+
+@given(
+    sentence=st.sampled_from(SENTENCES[:3]),
+    said=st.sampled_from(
+        [
+            ("half of {} N", 0.5),
+            ("twice {} N", 2),
+            ("a third of {} newtons", 1 / 3),
+            ("1.5 times {} N", 1.5),
+            ("80 % of {} N", 0.8),
+            ("20 % more than {} N", 1.2),
+            ("10 percent below {} N", 0.9),
+            ("twice as much as {} N", 2),
+        ]
+    ),
+    hundredth=hundredths,
+)
+def test_a_multiple_of_a_force_is_that_force(sentence, said, hundredth):
+    words, factor = said
+    text = sentence.format(words.format(f"{hundredth / 100:g}"))
+    expected = pytest.approx(factor * hundredth / 100, rel=1e-4)
+    assert forces(text) == [("value", expected)], text
+
+
+@given(hundredth=hundredths)
+def test_a_number_of_another_quantity_gets_no_unit_of_force(hundredth):
+    slip = f"{hundredth / 1000:g}"
+    assert forces(f"Hold it with 1 N, slip at most {slip} mm.") == [("value", 1.0)]
+    assert forces(f"Hold it with 1 N, slip at most 0.3 mm, never above {slip}.") == [("value", 1.0)]
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("Never hold it with 0.5 N.", "0.5 n"),
+        ("Don't go over 2 N.", ""),
+        ("Don't use 2 N, use 0.5 N.", ""),
+        ("Don't let it slip, 0.5 N should do.", ""),
+        ("Don't hesitate to use 0.5 N.", ""),
+    ],
+)
+def test_a_force_that_is_only_denied_is_reported(text, words):
+    assert read_request(text).numbers.denied == words
+
+
+def test_a_negative_force_keeps_its_sign_in_the_words():
+    assert read_request("Pick it up with -1 N.").numbers.forces[0].words == "-1 n"
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,156 @@
+"""Forces that a text leaves half said, written out, so that each number has its own unit.
+
+'Above 0.6 N but under 1.5' gives the second number the unit of the first, 'half to one newton'
+makes a number of the half, and 'twice 0.4 N' and '10 % below 1 N' are multiplied. A number that
+stands where a force would, in a text without a unit of force near it, is reported.
+"""
+
+from __future__ import annotations
+
+import re
+
+from policies.instructions.force_units import ALONE, NUMBER, UNIT, in_newtons, number
+
+_BARE = NUMBER.removeprefix(ALONE)
+_PERCENT = r"\s*(?:%|percent|per cent)"
+_ONE = rf"(?P<a>{NUMBER})\s*(?P<u>(?:{UNIT})\b)"
+
+_TIMES = {"half": 0.5, "twice": 2.0, "double": 2.0, "triple": 3.0, "thrice": 3.0}
+_PARTS = {"third": 3, "quarter": 4, "fourth": 4, "fifth": 5, "tenth": 10}
+_MULTIPLE = re.compile(
+    rf"(?:\b(?P<word>{'|'.join(_TIMES)})|(?P<times>{NUMBER})\s*(?:times|x|×)|(?P<percent>{NUMBER}){_PERCENT}|"
+    rf"\b(?:(?P<count>an?|\d) )?(?P<part>{'|'.join(_PARTS)})s?)(?: of| as [a-z]+ as)?(?: the)?\s+{_ONE}"
+)
+_MORE = r"(?:more|harder|firmer|tighter|greater|higher|above|over)"
+_LESS = r"(?:less|softer|gentler|lighter|smaller|lower|below|under)"
+_RELATIVE = re.compile(
+    rf"(?P<percent>{NUMBER}){_PERCENT} (?:(?P<more>{_MORE})|{_LESS})(?: than)?\s+{_ONE}"
+)
+
+_SUM = re.compile(
+    rf"(?P<a>{NUMBER})\s*(?P<u>(?:{UNIT})\b)?\s*(?P<sign>\+|\bplus\b|\bminus\b|\band (?:another|an extra|an additional)\b)\s*(?P<b>{_BARE})(?:\s*(?P<v>(?:{UNIT})\b))?(?!\s*(?:/|%|per ?cent\b|\d))"
+)
+_APART = re.compile(
+    rf"(?P<b>{NUMBER})\s*(?P<v>(?:{UNIT})\b) (?:(?P<more>{_MORE})|{_LESS}) than (?P<a>{NUMBER})\s*(?P<u>(?:{UNIT})\b)"
+)
+_OF_THAT = re.compile(
+    rf"\b(?P<word>{'|'.join(_TIMES)})(?: of)? (?:that|this|it)\b|(?<=than )(?P<more>{'|'.join(_TIMES)})(?=\s*(?:$|[.,;:!?)]))"
+)
+
+_BOUND = (
+    r"(?:at (?:the )?(?:very |absolute )?(?:most|least)|(?:less|more|lower|higher|harder|softer) than|"
+    r"(?:no|not|never|nor) (?:under|over|above|below)|under|over|above|below|beneath|up to|exceed(?:ing)?|"
+    r"(?:max(?:imum|imally)?|min(?:imum|imally)?|limit|ceiling|cap|floor)\b\.?(?: of| is| at| to)?|"
+    r"(?:bruis|crush|slip|slid|break|burst|squash)\w* (?:at|from))"
+)
+_VALUE = r"(?:with|use|using|apply|but|make it|aim(?:ing)? (?:for|at)|(?:target|goal|force)(?: of| to| is)?|grip (?:of|at)|at a force of)"
+_BEFORE = rf"(?:\b(?:{_BOUND}|{_VALUE})(?: a force of| about| around| roughly)?|[<>≤≥])\s*[:=]?\s*"
+_AFTER = r"(?=\s*(?:$|[.,;:!?)](?![\d.])|(?:and|but|or|yet|please|then|(?:will|would)(?= (?:bruis|crush|hurt|damag|slip|break|squash))|is|bruis\w*|crush\w*|at (?:the )?(?:most|least)|max(?:imum)?|min(?:imum)?)\b))"
+_HALVES = (
+    re.compile(rf"(?<!in )(?:\ban? |\b1 )?\bhalf(?= ?(?:-|–|to|and|or|up to) {_ONE})"),
+    re.compile(rf"(?<=(?:than|nder|over|elow|bove|most|east) )(?:an? )?half{_AFTER}"),
+)
+_QUANTITY = re.compile(
+    rf"{NUMBER}\s*-?\s*(?:(?P<force>(?:{UNIT})\b)|mm\b|cm\b|millimet\w+|[µμu]m\b|micro\w+|%|percent\b|per cent\b)"
+)
+_LINK = r"\s*(?:-|–|\bto\b|\bup to\b|\bthrough\b)\s*"
+_BARES = (
+    re.compile(rf"\bbetween (?P<a>{NUMBER})(?: and |{_LINK})(?P<b>{_BARE}){_AFTER}"),
+    re.compile(rf"(?:{_BEFORE}|\bfrom |^)(?P<a>{NUMBER}){_LINK}(?P<b>{_BARE}){_AFTER}"),
+    re.compile(rf"{_BEFORE}(?P<a>{NUMBER}){_AFTER}"),
+    re.compile(
+        rf"(?P<a>{NUMBER})(?= (?:at (?:the )?(?:very )?(?:most|least)|max(?:imum)?|min(?:imum)?|or (?:less|more)|(?:will|would) (?:bruis|crush|hurt|damag|squash|slip|break)\w*)\b)"
+    ),
+    re.compile(
+        rf"^(?P<a>{NUMBER})(?=\s*(?:$|,|\(?at (?:the )?(?:most|least)\b|\(?max\b|\(?min\b))"
+    ),
+)
+_HALF_RANGES = (
+    re.compile(rf"\bbetween {NUMBER}\s*(?P<u>(?:{UNIT})\b) and (?P<b>{NUMBER}){_AFTER}"),
+    re.compile(rf"{NUMBER}\s*(?P<u>(?:{UNIT})\b){_LINK}(?P<b>{_BARE}){_AFTER}"),
+)
+
+
+def written_out(text: str) -> tuple[str, str]:
+    """Give each number that names a force its unit.
+
+    Args:
+        text: Plain text, its numbers in digits.
+
+    Returns:
+        The text, and the first number that stands where a force would without one; '' for none.
+    """
+    for pattern, reckoned in (
+        (_SUM, _added),
+        (_APART, _added),
+        (_MULTIPLE, _multiplied),
+        (_RELATIVE, _related),
+    ):
+        text = pattern.sub(reckoned, text)
+    text = _with_multiples_of_that(text)
+    if re.search(rf"{NUMBER}\s*-?\s*(?:{UNIT})\b", text):
+        for half in _HALVES:
+            text = half.sub("0.5", text)
+    for pattern in _HALF_RANGES:
+        while match := pattern.search(text):
+            text = f"{text[: match.end('b')]} {match['u']}{text[match.end('b') :]}"
+    unitless = ""
+    for pattern in _BARES:
+        at = 0
+        while match := pattern.search(text, at):
+            at = match.end()
+            unit = _unit_near(text, match.start("a"))
+            if not unit:
+                unitless = unitless or match["a"]
+                continue
+            for name in sorted(match.groupdict(), reverse=True):  # the last first: places stay
+                text = f"{text[: match.end(name)]} {unit}{text[match.end(name) :]}"
+    return text, unitless
+
+
+def _added(match: re.Match[str]) -> str:
+    unit = match["u"] or match["v"]
+    if unit is None:
+        return match[0]
+    said = match.groupdict()
+    is_less = said.get("sign") == "minus" or ("sign" not in said and not said["more"])
+    other = number(match["b"]) * in_newtons("1", match["v"] or unit) / in_newtons("1", unit)
+    return f"{number(match['a']) + (-other if is_less else other):.6g} {unit}"
+
+
+def _with_multiples_of_that(text: str) -> str:
+    """'At least 0.5 N, at most twice that' -> 'at least 0.5 N, at most 1 N'."""
+    at = 0
+    while match := _OF_THAT.search(text, at):
+        at = match.end()
+        before = list(re.finditer(_ONE, text[: match.start()]))
+        if before:
+            times = _TIMES[match["word"] or match["more"]]
+            one = f"{times * number(before[-1]['a']):.6g} {before[-1]['u']}"
+            at = match.start() + len(one)
+            text = text[: match.start()] + one + text[match.end() :]
+    return text
+
+
+def _multiplied(match: re.Match[str]) -> str:
+    if match["word"]:
+        factor = _TIMES[match["word"]]
+    elif match["part"]:
+        count = match["count"] or "1"
+        factor = (int(count) if count.isdigit() else 1) / _PARTS[match["part"]]
+    else:
+        factor = number(match["times"]) if match["times"] else number(match["percent"]) / 100
+    return f"{factor * number(match['a']):.6g} {match['u']}"
+
+
+def _related(match: re.Match[str]) -> str:
+    percent = number(match["percent"]) * (1 if match["more"] else -1)
+    return f"{(1 + percent / 100) * number(match['a']):.6g} {match['u']}"
+
+
+def _unit_near(text: str, place: int) -> str:
+    """Unit of the quantity nearest to a place; '' where that is no force, or there is none."""
+    found = min(
+        _QUANTITY.finditer(text), key=lambda quantity: abs(quantity.start() - place), default=None
+    )
+    return (found["force"] or "") if found else ""

@@ -1,0 +1,62 @@
+"""Units of force in words, and numbers that stand before them.
+
+N, kN, mN, cN, grams, kilograms, pounds and ounces of force, spelled as people spell them.
+"""
+
+from __future__ import annotations
+
+import re
+
+GRAM_N = 9.80665e-3
+"""Weight of a gram [N] at standard gravity (CGPM 1901)."""
+
+_GRIP = (
+    r"(?:the )?(?:grip(?:ping)?|clamp(?:ing)?|squeez(?:e|ing)|finger|contact|holding|hand)?[ -]?"
+)
+_OF_FORCE = rf"[ -]*(?:of )?{_GRIP}(?:force|grip|pressure|squeeze|clamp)"
+_KILO = r"(?:kilo(?:gram(?:me)?)?s?|kgs?)"
+_GRAM = r"(?:gram(?:me)?s?|gr?)"
+UNITS: tuple[tuple[str, float], ...] = (
+    (r"(?:kilo-?\s?newtons?|kn)", 1000.0),
+    (r"(?:mill?i-?\s?n[ew]+t[a-z]{0,3}ns?|mn)", 1e-3),
+    (r"(?:centi-?\s?newtons?|cn)", 1e-2),
+    (r"(?:n[ew]+t[a-z]{0,3}ns?|netwons?|newtos?|n)", 1.0),
+    (rf"(?:{_KILO}{_OF_FORCE}|kgf|{_KILO}[ -]f(?:orce)?|kilo(?:gram)?-?force|kiloponds?)", 1000 * GRAM_N),
+    (rf"(?:{_GRAM}{_OF_FORCE}|{_GRAM}[ -]weight|gf|{_GRAM}[ -]f(?:orce)?|gram-?force|ponds?)", GRAM_N),
+    (rf"(?:(?:pounds?|lbs?){_OF_FORCE}|lbf)", 453.59237 * GRAM_N),
+    (rf"(?:(?:ounces?|oz){_OF_FORCE}|ozf)", 28.349523 * GRAM_N),
+)  # fmt: skip
+_MASSES = ((_KILO, 1000 * GRAM_N), (_GRAM, GRAM_N))
+"""Masses stand for a force only after a word such as 'with' or 'at most'."""
+UNIT = "|".join(unit for unit, _ in UNITS)
+LOOSE = "|".join(unit for unit, _ in _MASSES)
+ALONE = r"(?<![\d.,])"
+NUMBER = (
+    ALONE
+    + r"(?:\d{1,3}(?:,\d{3})+(?:\.\d+)?|\d{1,12}(?:[.,]\d{1,12})?|\.\d{1,12})(?:e[+-]?\d{1,2})?(?![.,]?\d)"
+)
+
+
+def in_newtons(digits: str, unit: str) -> float:
+    """A force of so many of a unit [N].
+
+    Raises:
+        ValueError: No unit of force.
+    """
+    if digits.strip("- ") in ("infinite", "infinity", "unlimited", "inf", "nan"):
+        return float("inf")
+    for pattern, unit_n in (*UNITS, *_MASSES):
+        if re.fullmatch(pattern, unit):
+            return number(digits) * unit_n
+    raise ValueError(f"no unit of force: {unit!r}")
+
+
+def number(text: str) -> float:
+    """A number with a decimal point or comma; '15,000' and '1.500.000' have separators."""
+    sign = -1 if re.match(r"-|minus|negative", text) else 1
+    text = re.sub(r"^(?:-|minus|negative)\s*", "", text)
+    if re.fullmatch(r"\d{1,3}(?:,\d{3})+(?:\.\d+)?", text) and not text.startswith("0,"):
+        text = text.replace(",", "")
+    elif re.fullmatch(r"\d{1,3}(?:\.\d{3}){2,}", text):
+        text = text.replace(".", "")
+    return sign * float(text.replace(",", "."))
