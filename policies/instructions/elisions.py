@@ -59,7 +59,7 @@ _BARES = (
     re.compile(rf"(?:{_BEFORE}|\bfrom |^)(?P<a>{NUMBER}){_LINK}(?P<b>{_BARE}){_AFTER}"),
     re.compile(rf"{_BEFORE}(?P<a>{NUMBER}){_AFTER}"),
     re.compile(
-        rf"(?P<a>{NUMBER})(?= (?:at (?:the )?(?:very )?(?:most|least)|max(?:imum)?|min(?:imum)?|or (?:less|more)|(?:will|would) (?:bruis|crush|hurt|damag|squash|slip|break)\w*)\b)"
+        rf"(?P<a>{NUMBER})(?= (?:at (?:the )?(?:very )?(?:most|least)|max(?:imum)?|min(?:imum)?|or (?:less|more)|(?:is |would be )?(?:too|not enough)|(?:will|would) (?:bruis|crush|hurt|damag|squash|slip|break)\w*)\b)"
     ),
     re.compile(
         rf"^(?P<a>{NUMBER})(?=\s*(?:$|,|\(?at (?:the )?(?:most|least)\b|\(?max\b|\(?min\b))"

@@ -121,7 +121,8 @@ _MOST = re.compile(
     r"\blimit(?:s|ed|ing)?(?: \w+){0,3}?(?: to| of| at| is|:| =|=)?|"
     r"\bcap(?:ped|ping)?(?: \w+){0,3}?(?: at| to| of| is|:| =|=)?|\bceiling(?: of| is| at|:| =|=)?|"
     r"\bupper (?:\w+ )?(?:limit|bound|end)(?: \w+){0,2}?(?: of| is| at|:| =|=)?|\bpeak(?: \w+){0,2}?(?: of| is| at|:| =|=)?|"
-    r"<=|≤|=<|\bnot to exceed|\bwithin|\bbounded (?:above )?(?:by|at)|\b(?:not|never)(?: let it)? (?:go|push|squeeze|press)(?: \w{1,4})?|\btop out at|\bno more than|\bnowhere near|\bfar (?:away )?from|\b(?:not|never)(?: (?:even|anywhere|get|go|come|be))* (?:close|near)(?: to)?|\bf_?max\s*=)"
+    r"<=|≤|=<|\bnot to exceed|\bwithin|\bbounded (?:above )?(?:by|at)|\b(?:not|never)(?: let it)? (?:go|push|squeeze|press)(?: \w{1,4})?|\btop out at|\bno more than|\bnowhere near|\b(?:allowed|permitted)(?: (?:up )?to(?: use)?)?|"
+    r"\b(?:ease|eases|back|let)(?: \w+){0,2} (?:once|when|as soon as|at)(?: (?:you|it|we))?(?: (?:feel|reach|hit|see|measure|get to|read)\w*)?|\bfar (?:away )?from|\b(?:not|never)(?: (?:even|anywhere|get|go|come|be))* (?:close|near)(?: to)?|\bf_?max\s*=)"
     r"(?: (?:about|around|roughly))?\s*$"
 )
 _LEAST = re.compile(
@@ -135,23 +136,25 @@ _OTHERS = r"(?!(?: than| of| is| to|:| =)?(?: (?:about|around|roughly))?(?: an?)
 """Ends a bound after a number: '2 N, at most 2.2 N' bounds the second number, not the first."""
 
 _HARMS = r"(?:gives? (?:way|in)|fail|yield|suffer|complain|leak|collapse|spoil|bruis|crush|squash|burst|break|split|crack|damag|mark|dent|pop|hurt|mush|ruin|spoil|tear|pulp)\w*"
+_SLIPS = r"(?:slips?|falls?|drops?|slides?|turns?|gets? away|wobbles?)"
 _MOST_AFTER = re.compile(
     r"\s*(?:-|–|,|:)?\s*(?:(?:at |as )?(?:a |the )?max(?:imum|imal)?\b(?!\.?(?: of| is|:| =)? ?\d)|tops\b|at (?:the )?(?:very |absolute )?most\b|"
-    r"(?:or|and) (?:less|below|under|lower|lighter|softer|gentler|smaller)\b|(?: [a-z]+){1,3} at (?:the )?(?:very |absolute )?most\b|"
+    r"(?:or|and) (?:a (?:little|bit|touch) |slightly |even )?(?:less|below|under|lower|lighter|softer|gentler|smaller)\b|(?: [a-z]+){1,3} at (?:the )?(?:very |absolute )?most\b|"
     r"[;,.]? ?(?:and )?(?:do not|never|not|but not) (?:\w+ ){0,2}(?:past|over|above|beyond|exceed|higher than) (?:it|that|this)\b|"
     r"(?:,? ?and )?(?:absolutely )?(?:no|not|never)(?! need)(?: \w+){0,2} (?:more|higher|harder|above|over|further|beyond)\b"
     r"(?!,? (?:and |or )?(?:no|not|nor|never)(?: \w+)? less)(?! (?:no|not) less)|"
-    r"(?:is|as|being)(?: \w+){0,3} (?:limit|max(?:imum)?|ceiling|cap|most)\b|(?:limit|ceiling|cap)\b(?!(?: of| is|:| =)? ?\d)|"
-    r"(?:is|would be|are|will be) (?:already |way |far )?too (?:much|hard|firm|high|strong)|and under\b|"
-    rf"(?:will|would|is where \w+|is when \w+) (?:already |surely )?{_HARMS})" + _OTHERS
+    r"(?:is|as|being)(?: \w+){0,3} (?:limit|max(?:imum)?|ceiling|cap|most|end of the line|last word)\b|(?:limit|ceiling|cap)\b(?!(?: of| is|:| =)? ?\d)|"
+    r"(?:(?:is|would be|are|will be) )?(?:already |way |far |just )?too (?:much|hard|firm|high|strong)|and under\b|"
+    rf"(?:will|would|is where \w+|is when \w+) (?:already |surely )?{_HARMS}|(?:it|they|the \w+) (?:already |surely )?{_HARMS})"
+    + _OTHERS
 )
 _LEAST_AFTER = re.compile(
-    r"\s*(?:-|–|,|:|\+)?\s*(?:(?:at |as )?(?:a |the )?min(?:imum)?\b(?!\.?(?: of| is|:| =)? ?\d)|(?:(?:or|and) )?upwards?\b|(?:or|and) (?:more|above|higher|over|harder|firmer|better|greater|larger|up|upwards?)\b|(?: [a-z]+){1,3} at (?:the )?(?:very |absolute )?least\b|[;,.]? ?(?:and )?(?:do not|never|not|but not) (?:\w+ ){0,2}(?:under|below|beneath|lower than) (?:it|that|this)\b|"
+    r"\s*(?:-|–|,|:|\+)?\s*(?:(?:at |as )?(?:a |the )?min(?:imum)?\b(?!\.?(?: of| is|:| =)? ?\d)|(?:(?:or|and) )?upwards?\b|(?:or|and) (?:a (?:little|bit|touch) |slightly |even )?(?:more|above|higher|over|harder|firmer|better|greater|larger|up|upwards?)\b|(?: [a-z]+){1,3} at (?:the )?(?:very |absolute )?least\b|[;,.]? ?(?:and )?(?:do not|never|not|but not) (?:\w+ ){0,2}(?:under|below|beneath|lower than) (?:it|that|this)\b|"
     r"at (?:the )?(?:very |absolute )?least\b|plus\b|"
     r"(?:,? ?and )?(?:absolutely )?(?:no|not|never)(?: \w+){0,2} (?:less|lower|softer|under|below)\b|"
     r"(?:is|as|being)(?: \w+){0,3} (?:minimum|min|floor|least)\b|(?:floor)\b|"
-    r"(?:is|would be|are|will be|will) (?:not (?:do|enough)|too (?:little|light|soft|low|weak)))"
-    + _OTHERS
+    r"(?:(?:is|would be|are|will be|will) )?(?:not (?:do|enough)|(?:just |way |far )?too (?:little|light|soft|low|weak)))"
+    rf"|(?: it| they| the \w+) (?:still |just |already )?{_SLIPS}\b" + _OTHERS
 )
 _MOST_SOMEWHERE = re.compile(
     r"\b(?:cut ?-?offs?|saturate at|clip(?:ped)? at|(?:not|never)(?: \w+){0,4} reach(?:es)?|before it reaches|back off at|the most (?:i|you|we|it|that)|upper (?:\w+ )?(?:bound|limit|end)|ceiling|red line|draw the line|top of (?:what|the|its)|bounded above|"
@@ -204,7 +207,6 @@ _PAST = re.compile(
     r"\b(?:last (?:time|one|run|trial|try|berry)|yesterday|previous(?:ly)?|before|earlier|used to|was|were|had|"
     r"slipped|slid|crushed|squashed|bruised|dropped|tried|went|did)\b"
 )
-_SLIPS = r"(?:slips?|falls?|drops?|slides?|turns?|gets? away|wobbles?)"
 _HARMED = re.compile(
     rf"\b{_HARMS}(?: \w+){{0,3}} (?:above|over|beyond|past|at|from|with more than|after)\s*$"
 )
@@ -234,6 +236,7 @@ def read_quantities(text: str) -> Quantities:
     text = re.sub(rf"({NUMBER}), (?=newtons?\b)", r"\1 ", text)
     text = re.sub(r"(?<=\d)['\u00a0\u202f ](?=\d{3}\b(?! ?mm))", "", text)  # 1 400 mN
     text = re.sub(rf"({NUMBER})\s?-?ish\b", r"\1", text)
+    text = re.sub(rf"({NUMBER}) ?\(((?:{UNIT}))\)", r"\1 \2", text)
     text = _MARGIN.sub(" ", text)
     text = _CHAIN.sub(r"between \1 and \2 \3", text)
     text = _PAIR.sub(r"between \1 and \2 \3", text)
