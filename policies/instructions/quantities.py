@@ -153,8 +153,8 @@ _LEAST_AFTER = re.compile(
     r"at (?:the )?(?:very |absolute )?least\b|plus\b|"
     r"(?:,? ?and )?(?:absolutely )?(?:no|not|never)(?: \w+){0,2} (?:less|lower|softer|under|below)\b|"
     r"(?:is|as|being)(?: \w+){0,3} (?:minimum|min|floor|least)\b|(?:floor)\b|"
-    r"(?:(?:is|would be|are|will be|will) )?(?:not (?:do|enough)|(?:just |way |far )?too (?:little|light|soft|low|weak)))"
-    rf"|(?: it| they| the \w+) (?:still |just |already )?{_SLIPS}\b" + _OTHERS
+    r"(?:(?:is|would be|are|will be|will) )?(?:not (?:do|enough)|(?:just |way |far )?too (?:little|light|soft|low|weak))|"
+    rf"(?:it|they|the \w+) (?:still |just |already )?{_SLIPS}\b)" + _OTHERS
 )
 _MOST_SOMEWHERE = re.compile(
     r"\b(?:cut ?-?offs?|saturate at|clip(?:ped)? at|(?:not|never)(?: \w+){0,4} reach(?:es)?|before it reaches|back off at|the most (?:i|you|we|it|that)|upper (?:\w+ )?(?:bound|limit|end)|ceiling|red line|draw the line|top of (?:what|the|its)|bounded above|"
