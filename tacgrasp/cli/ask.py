@@ -38,7 +38,8 @@ class AskFlags:
     In mm, positive into the gel, with the untouched gel at 0.
 
     Without a question, a dialogue: follow-ups such as "Why?" are put with the exchange before, an
-    empty line or ctrl-D ends it. Without a terminal, each line of the input is answered by a line.
+    empty line or ctrl-D ends it. Without a terminal, each line of the input is answered by a line;
+    where one can't be answered, the line says why (with --json as "error"), and the exit code is 2.
 
     Attributes:
         file: Cloud or height map.
@@ -103,11 +104,17 @@ def main(argv: Sequence[str]) -> int:
 
     if flags.question is not None:
         show(_answer(talk, policy.check, flags.question))
-    elif sys.stdin.isatty():
+        return 0
+    if sys.stdin.isatty():
         _dialogue(talk, policy.check, show)
-    else:
-        _answer_lines(talk, policy.check, show)
-    return 0
+        return 0
+
+    def show_error(message: str) -> None:
+        line = json.dumps({"error": message}, ensure_ascii=False) if flags.json else message
+        sys.stdout.write(line + "\n")
+        sys.stdout.flush()
+
+    return _answer_lines(talk, policy.check, show, show_error)
 
 
 def _contract(flags: AskFlags) -> Contract | None:
@@ -173,14 +180,19 @@ def _typed() -> Iterator[str]:
 
 
 def _answer_lines(
-    talk: Conversation, check: Callable[[str], None], show: Callable[[Spoken], None]
-) -> None:
-    """Answer each line of the input that is not empty.
+    talk: Conversation,
+    check: Callable[[str], None],
+    show: Callable[[Spoken], None],
+    show_error: Callable[[str], None],
+) -> int:
+    """Answer each line of the input that is not empty by a line; returns the exit code.
+
+    A line that can't be answered is told in its place and on stderr, and does not end the others.
 
     Raises:
-        UsageError: There is no question, or a line is none that can be answered.
+        UsageError: There is no question.
     """
-    is_asked = False
+    is_asked, code = False, 0
     for number, line in enumerate(sys.stdin, start=1):
         if not line.strip():
             continue
@@ -188,6 +200,9 @@ def _answer_lines(
         try:
             show(_answer(talk, check, line.strip()))
         except UsageError as error:
-            raise UsageError(f"line {number}: {error}") from None
+            sys.stderr.write(f"tacgrasp: line {number}: {error}\n")
+            show_error(str(error))
+            code = 2
     if not is_asked:
         raise UsageError("there is no question: give one after FILE, or lines of input")
+    return code

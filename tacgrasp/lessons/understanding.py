@@ -1,7 +1,9 @@
-"""Asks the language model what a question means.
+"""What a question means: by the grammar where that has the wording, else by the language model.
 
-It writes a query under the grammar of queries (``tacgrasp.lessons.dialogue.query``), without any
-touch: what a question asks for does not hang on the contact.
+The grammar (``tacgrasp.lessons.dialogue.families``) says exactly what its wordings mean. For every
+other one the model, which learned from them, writes a query under the grammar of queries
+(``tacgrasp.lessons.dialogue.query``), without any touch: what a question asks for does not hang on
+the contact.
 """
 
 from __future__ import annotations
@@ -22,8 +24,14 @@ from cltp.llm.generation import Reply
 from policies.llm.text import DOUBTFUL_RATIO
 from tacgrasp.lessons.dialogue.answers import Answer, answer
 from tacgrasp.lessons.dialogue.expression import Expression
+from tacgrasp.lessons.dialogue.families.catalogue import understand
 from tacgrasp.lessons.dialogue.meaning import Amount, AnswerKind, Meaning, names_of, truth_of
-from tacgrasp.lessons.dialogue.query import asked_text, query_grammar, read_query
+from tacgrasp.lessons.dialogue.query import (
+    asked_text,
+    query_grammar,
+    query_of,
+    read_query,
+)
 from tacgrasp.lessons.dialogue.scene import AskedScene
 from tacgrasp.lessons.dialogue.tolerances import tolerance_of
 
@@ -54,6 +62,13 @@ SIGNED = ("x_mm", "y_mm")
 
 _FOLLOWS = re.compile(r"(?:and|but|then|why|how come|what about|how about|same)\b", re.I)
 
+_STANDS_ALONE = re.compile(
+    r"(?:is|are|isn't|aren't|was|were|does|do|did|has|have|had|can|could|will|would|shall|should|may|might|must)"
+    r"(?: \S+){2}",
+    re.I,
+)
+"""A question with subject and verb: 'Is it round?' follows nothing, 'Is it?' may."""
+
 NOT_UNDERSTOOD = "I don't understand the question."
 
 
@@ -71,12 +86,12 @@ class QueryWriter(Protocol):
 
 
 class ReadQuestion(NamedTuple):
-    """What a question means to the model.
+    """What a question means.
 
     Attributes:
-        query: What it wrote.
+        query: It as a query.
         meaning: The query's meaning.
-        confidence: Probability of the query, as the product over its parts.
+        confidence: Probability of the query, as the product over its parts; 1 by the grammar.
     """
 
     query: str
@@ -85,13 +100,34 @@ class ReadQuestion(NamedTuple):
 
 
 def understood(writer: QueryWriter, question: str, before: str = "") -> ReadQuestion | None:
-    """What a question means; None where the model comes to no query.
+    """What a question means; None where neither grammar nor model comes to a query.
 
     Args:
-        writer: The model.
+        writer: The model, which is asked where the grammar has not the wording.
         question: The question.
         before: The question before it, where it follows one; ''.
     """
+    return understood_by_grammar(question, before) or understood_by_model(writer, question, before)
+
+
+def understood_by_grammar(question: str, before: str = "") -> ReadQuestion | None:
+    """What a question means by the grammar; None where it has not the wording."""
+    meaning = understand(question, before=before)
+    if meaning is None:
+        return None
+    numbers = asked_text(question, before).numbers
+    try:
+        query = query_of(meaning, numbers)
+    except ValueError:  # it has a number that is no number of the question: 'half a kilo'
+        return None
+    read = read_query(query, numbers)
+    return None if read is None else ReadQuestion(query, read, 1.0)
+
+
+def understood_by_model(
+    writer: QueryWriter, question: str, before: str = ""
+) -> ReadQuestion | None:
+    """What a question means to the model alone; None where it comes to no query."""
     asked = asked_text(question, before)
     grammar = query_grammar(len(asked.numbers))
     reply = writer.reply_to(torch.zeros(0, writer.width), asked.words, grammar=grammar)
@@ -106,7 +142,7 @@ def understood_in_turn(writer: QueryWriter, question: str, before: str) -> ReadQ
     """What a question means after another one.
 
     One that begins as follow-ups do is read behind the question before it. So is another short one
-    where it means little alone, and that gives the likelier query.
+    without a verb of its own where it means little alone, and that gives the likelier query.
     """
     if not before:
         return understood(writer, question)
@@ -114,6 +150,7 @@ def understood_in_turn(writer: QueryWriter, question: str, before: str) -> ReadQ
         return understood(writer, question, before)
     alone = understood(writer, question)
     stands_alone = alone is not None and alone.confidence >= ALONE_FROM
+    stands_alone = stands_alone or bool(_STANDS_ALONE.match(question))
     if stands_alone or len(question.split()) > FOLLOW_UP_WORDS:
         return alone
     read = [each for each in (alone, understood(writer, question, before)) if each is not None]

@@ -62,6 +62,7 @@ from tacgrasp.lessons.question_scores import answer_all, ask_all, figures
 from tacgrasp.policy_factory import load_llm
 from tacgrasp.training.question_evaluation import (
     asked_model,
+    by_model,
     felt_contacts,
     own_questions,
     spoken_once,
@@ -162,7 +163,7 @@ def _answers(talker: Talker, request: EvaluationRequest, report: ProgressReport)
     spoken = spoken_once(talker, contacts)
     for name, asked in sets.items():
         stage = f"{name.replace('_', '-')} questions"
-        model = asked_model(talker, spoken, len(asked), report, stage=stage)
+        model = asked_model(by_model(talker), spoken, len(asked), report, stage=stage)
         answers = answer_all(asked, model)
         by_kind = {kind: [a for a in answers if a.asked.row.kind is kind] for kind in AnswerKind}
         right[name] = {

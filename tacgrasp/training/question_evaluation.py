@@ -46,10 +46,18 @@ from tacgrasp.lessons.question_scores import (
     figures_by_family,
     perfect_answer,
 )
-from tacgrasp.lessons.understanding import ReadQuestion, answered, understood
+from tacgrasp.lessons.understanding import (
+    ReadQuestion,
+    answered,
+    understood_by_grammar,
+    understood_by_model,
+)
 
 MADE_SEED = BENCHMARK_SEED + 7
 """Seed of the contacts that are made where none are given; no data set can have it."""
+
+ALONE = "model alone"
+"""Name in tables of the model that reads the wordings of the grammar too."""
 
 AS_FELT = "truth as felt"
 """Name in tables of what understands every question and feels as the model does."""
@@ -141,10 +149,20 @@ def evaluate_questions(
         if talker is not None:
             confidences: list[float] = []
             spoken = spoken_once(talker, contacts)
-            model = asked_model(talker, spoken, len(asked), report, confidences=confidences)
+            alone = by_model(talker)
+            model = asked_model(
+                lambda question, before: (
+                    understood_by_grammar(question, before) or alone(question, before)
+                ),
+                spoken,
+                len(asked),
+                report,
+                confidences=confidences,
+            )
             answers = answer_all(asked, model)
+            without = answer_all(asked, asked_model(alone, spoken, len(asked), silent))
             felt = answer_all(asked, truth_as_felt(spoken))
-            scored = {"model": answers, AS_FELT: felt, **scored}
+            scored = {"model": answers, ALONE: without, AS_FELT: felt, **scored}
             trust = {"confidence": confidence_figures(answers, confidences)}
     except ValueError as error:
         raise UsageError(f"the file of questions: {error}") from None
@@ -191,8 +209,22 @@ def own_questions(scenes: Sequence[AskedScene], num: int, seed: int) -> list[Ask
     return [AskedQuestion(row=row, contact=numbers[id(scene)], scene=scene) for row, scene in rows]
 
 
+Understanding = Callable[[str, str], ReadQuestion | None]
+"""What a question means, by it and the question before it, or ''."""
+
+
+def by_model(talker: Talker) -> Understanding:
+    """What the model takes each question for, without the grammar; it reads each once."""
+
+    @cache
+    def meant(question: str, before: str) -> ReadQuestion | None:
+        return understood_by_model(talker, question, before)
+
+    return meant
+
+
 def asked_model(
-    talker: Talker,
+    meant: Understanding,
     spoken: Spoken,
     total: int,
     report: ProgressReport,
@@ -200,23 +232,17 @@ def asked_model(
     stage: str = "questions",
     confidences: list[float] | None = None,
 ) -> Callable[[AskedQuestion], str]:
-    """What asks the model.
-
-    Each question is understood once.
+    """What answers questions from what a model feels.
 
     Args:
-        talker: The model.
-        spoken: What it feels and says of a contact.
+        meant: What a question means.
+        spoken: What the model feels and says of a contact.
         total: Number of questions to come, for the progress.
         report: Receives the progress.
         stage: Name of the stage, for the progress.
         confidences: Receives the confidence of each answer.
     """
     done = 0
-
-    @cache
-    def meant(question: str, before: str) -> ReadQuestion | None:
-        return understood(talker, question, before)
 
     def reply(asked: AskedQuestion) -> str:
         nonlocal done

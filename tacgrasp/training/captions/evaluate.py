@@ -55,6 +55,7 @@ from tacgrasp.training.captions.rating import CaptionRating, rate_caption
 from tacgrasp.training.other_encoder import method_of
 from tacgrasp.training.question_evaluation import (
     asked_model,
+    by_model,
     felt_contacts,
     own_questions,
     spoken_once,
@@ -238,7 +239,7 @@ def _question_values(run: CaptionRun, talker: Talker) -> dict[str, float | None]
     spoken = spoken_once(talker, contacts)
     for name, asked in sets.items():
         stage = name.replace("_", " ")
-        model = asked_model(talker, spoken, len(asked), run.report, stage=stage)
+        model = asked_model(by_model(talker), spoken, len(asked), run.report, stage=stage)
         right = figures(answer_all(asked, model)).right
         values[name] = 100 * right if right is not None and np.isfinite(right) else None
     return values

@@ -19,6 +19,7 @@ from policies import PolicyError
 from policies.llm.spoken import SpokenContact
 from tacgrasp import policy_factory
 from tacgrasp.__main__ import main
+from tacgrasp.lessons import understanding
 from tacgrasp.playback import conversation
 from tests.fakes.question_scenes import HELD
 from tests.fakes.tiny_weights import bump
@@ -66,6 +67,7 @@ def talker(monkeypatch: pytest.MonkeyPatch) -> Writer:
     monkeypatch.setattr(policy_factory, "load_llm", lambda weights=None: policy)
     spoken = SpokenContact(HELD.state, {"shape": 0.5}, {"depth_mm": (0.16, 0.25)})
     monkeypatch.setattr(conversation, "spoken_contact", lambda *_: spoken)
+    monkeypatch.setattr(understanding, "understand", lambda *_, **__: None)  # the writer decides
     flagged = SimpleNamespace(flags=(Flag.NOISE,))
     monkeypatch.setattr(conversation, "reading_of", lambda *_: flagged)
     return writer
@@ -195,6 +197,24 @@ def test_lines_of_input_are_answered_by_a_line_each(
     assert main(["ask", touch, "--json"]) == 0
     lines = capsys.readouterr().out.splitlines()
     assert [json.loads(line)["value"] for line in lines] == [0.19, 0.19]
+
+
+def test_a_line_that_cannot_be_answered_is_told_in_its_place(
+    talker: Writer,
+    touch: str,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    for flags in ([], ["--json"]):
+        lines = "How deep is it?\nHallo Welt\nHow hard?\n"
+        monkeypatch.setattr("sys.stdin", Typed(lines, terminal=False))
+        assert main(["ask", touch, *flags]) == 2
+        printed = capsys.readouterr()
+        said = printed.out.splitlines()
+        assert len(said) == 3
+        assert said[1] == ('{"error": "ask in plain English"}' if flags else "ask in plain English")
+        assert said[0] == said[2]
+        assert printed.err == "tacgrasp: line 2: ask in plain English\n"
 
 
 @pytest.mark.parametrize(

@@ -64,17 +64,35 @@ def test_the_model_reads_each_question_once_and_answers_on_what_is_felt():
     parrot = Parrot("amount force N.")
     results, answers = evaluated(parrot)
     assert parrot.prompts == ["over # n", "over # n ? and how deep", "is it red"]
-    assert {each.text for each in answers} == {"0.83 N."}
-    model = results["figures"]["model"]
-    assert (model["right"], model["decidable_n"], model["undecidable_n"]) == (0, 4, 2)
-    assert model["undecidable"] == 0
+    alone = results["figures"]["model alone"]
+    assert (alone["right"], alone["decidable_n"], alone["undecidable_n"]) == (0, 4, 2)
+    assert alone["undecidable"] == 0
     assert len(answers) == 6
-    assert results["confidence"] == {"calibration_error": 0.5, "auroc": None}  # all wrong
     assert json.dumps(results)
+
+
+def test_wordings_of_the_grammar_are_read_by_it_and_the_model_without_it_stands_beside():
+    results, answers = evaluated(Parrot("amount force N."))
+    said = {each.asked.row.question: each.text for each in answers}
+    assert said == {
+        "Over 1 N?": "No, the force is 0.83 N.",
+        "And how deep?": "0.19 mm.",
+        "Is it red?": "I can't feel its color.",
+    }
+    assert results["figures"]["model"]["undecidable"] == 1
+
+
+def test_confidence_is_scored_on_what_the_model_answers(monkeypatch):
+    monkeypatch.setattr(question_evaluation, "understood_by_grammar", lambda *_: None)
+    results, answers = evaluated(Parrot("amount force N."))
+    assert {each.text for each in answers} == {"0.83 N."}
+    assert results["figures"]["model"] == results["figures"]["model alone"]
+    assert results["confidence"] == {"calibration_error": 0.5, "auroc": None}  # all wrong
 
 
 def test_a_right_query_gives_right_answers():
     results, _ = evaluated(Parrot("amount depth mm."))
+    assert results["figures"]["model alone"]["right"] == 0.25  # the number about HELD, no verdict
     assert results["families"]["number"]["right"] == 0.5  # felt is HELD, asked about FIRM too
 
 

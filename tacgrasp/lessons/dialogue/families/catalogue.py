@@ -18,6 +18,7 @@ from tacgrasp.lessons.dialogue.families.grasps import advice, force, lifting, ma
 from tacgrasp.lessons.dialogue.families.unfelt import backgrounds, off_topic, others, traits
 from tacgrasp.lessons.dialogue.meaning import Meaning, truth_of
 from tacgrasp.lessons.dialogue.patterns.family import QuestionFamily
+from tacgrasp.lessons.dialogue.patterns.reading import WordingReader
 from tacgrasp.lessons.dialogue.plain_words import plain_text
 
 FAMILIES: tuple[QuestionFamily, ...] = (
@@ -54,11 +55,11 @@ def understand(text: str, *, before: str = "") -> Meaning | None:
         before: The question before it; a follow-up is understood only after one that it fits.
     """
     earlier = understand(before) if before else None
-    plain = plain_text(text)
+    reader = WordingReader(plain_text(text))
     for family in sorted(FAMILIES, key=lambda each: bool(each.before) != bool(before)):
         if family.before and (earlier is None or truth_of(earlier) not in _truths_before(family)):
             continue
-        understood = family.automaton.understand(plain)
+        understood = reader.understand(family.node)
         if understood is not None:
             return family.build(understood.bindings, understood.numbers)
     return None

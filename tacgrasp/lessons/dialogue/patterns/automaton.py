@@ -11,25 +11,11 @@ Patterns have no recursion, so the automaton has no circle and its language is f
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cache, cached_property
 from typing import NamedTuple
 
 from tacgrasp.lessons.dialogue.patterns.pattern import Bound, Chain, ListSlot, Literal, Node, OneOf
-from tacgrasp.lessons.dialogue.plain_words import NUMBER, PlainText, plain_words
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Understood:
-    """How a text was recognised.
-
-    Attributes:
-        bindings: Bound values by name.
-        numbers: Values of its numbers by name.
-    """
-
-    bindings: Mapping[str, str]
-    numbers: Mapping[str, float]
+from tacgrasp.lessons.dialogue.plain_words import NUMBER, plain_words
 
 
 class _State(NamedTuple):
@@ -37,13 +23,11 @@ class _State(NamedTuple):
 
     Attributes:
         label: A word, ``NUMBER`` or the name of a class; '' where the arcs take no word.
-        targets: States that the arcs lead to, in the order of the pattern.
-        binding: Name and value that the arc binds; for a number its name and ''.
+        targets: States that the arcs lead to.
     """
 
     label: str
     targets: tuple[int, ...]
-    binding: tuple[str, str] | None = None
 
 
 class Automaton:
@@ -91,7 +75,7 @@ class Automaton:
         """States that take a word, or end, and are reached from a state without a word."""
         known = self._known_behind.get(state)
         if known is None:
-            label, targets, _ = self._states[state]
+            label, targets = self._states[state]
             is_last = bool(label) or state == self._end
             known = frozenset([state]) if is_last else self._closure(targets)
             self._known_behind[state] = known
@@ -135,34 +119,6 @@ class Automaton:
             known = self._known_after[words] = self._past(takers)
         return known
 
-    def understand(self, text: PlainText) -> Understood | None:
-        """Bindings of the first way in which a text may be produced; None where there is none."""
-        ways = self._ways(text.words)
-        if ways is None:
-            return None
-        for at in reversed(range(len(text.words))):  # those from which the rest is taken
-            ways[at] = frozenset(s for s in ways[at] if self._past([s]) & ways[at + 1])
-        trail: list[tuple[tuple[str, str], int]] = []
-        targets: Sequence[int] = [self._start]
-        for at, wanted in enumerate(ways):
-            passed = self._first_way(targets, wanted)
-            trail += [(state.binding, at) for state in passed if state.binding is not None]
-            targets = passed[-1].targets
-        return Understood(
-            bindings={name: value for (name, value), _ in trail if value},
-            numbers={name: text.numbers[at] for (name, value), at in trail if not value},
-        )
-
-    def _first_way(self, targets: Sequence[int], wanted: frozenset[int]) -> list[_State]:
-        """States on the first way without a word from one of some states to one of others."""
-        way: list[_State] = []
-        number = None
-        while number not in wanted:
-            number = next(each for each in targets if self._behind(each) & wanted)
-            way.append(self._states[number])
-            targets = way[-1].targets
-        return way
-
     def num_wordings(self, most: int) -> int:
         """Number of distinct wordings, up to ``most``.
 
@@ -203,11 +159,9 @@ class _Builder:
         self._numbers: dict[_State, int] = {}
         self._built: dict[tuple[int, int], int] = {}
 
-    def state(
-        self, label: str, targets: tuple[int, ...], binding: tuple[str, str] | None = None
-    ) -> int:
+    def state(self, label: str, targets: tuple[int, ...]) -> int:
         """The number of a state."""
-        state = _State(label, targets, binding)
+        state = _State(label, targets)
         if state not in self._numbers:
             self._numbers[state] = len(self._states)
             self._states.append(state)
@@ -235,9 +189,9 @@ class _Builder:
             case OneOf(parts, optional):
                 starts = [self.build(part, end) for part in parts]
                 return self._either([*starts, end] if optional else starts)
-            case Bound(name, value, part):
-                return self.state("", (self.build(part, end),), (name, value))
-        return self.state(NUMBER, (end,), (node.name, ""))
+            case Bound(_, _, part):
+                return self.build(part, end)
+        return self.state(NUMBER, (end,))
 
     def _either(self, starts: Sequence[int]) -> int:
         different = tuple(dict.fromkeys(starts))

@@ -15,7 +15,7 @@ import numpy as np
 
 from tacgrasp.lessons.dialogue.meaning import Length, Meaning
 from tacgrasp.lessons.dialogue.patterns.automaton import Automaton
-from tacgrasp.lessons.dialogue.patterns.pattern import Node, Slots, compile_pattern
+from tacgrasp.lessons.dialogue.patterns.pattern import Node, SharedSlots, Slots, compile_pattern
 from tacgrasp.lessons.dialogue.patterns.phrases import SHARED
 from tacgrasp.lessons.dialogue.scene import AskedScene
 
@@ -60,11 +60,11 @@ class QuestionFamily:
     @cached_property
     def node(self) -> Node:
         """Its wordings, compiled."""
-        return compile_pattern(self.pattern, {**SHARED, **self.slots}, word_lists())
+        return compile_pattern(self.pattern, self.slots, word_lists(), _shared_slots())
 
     @cached_property
     def automaton(self) -> Automaton:
-        """Its wordings, to be recognised."""
+        """All that it can produce."""
         return Automaton(self.node)
 
 
@@ -96,3 +96,8 @@ def word_lists() -> Mapping[str, tuple[str, ...]]:
                 for name in names:
                     lists.setdefault(name, []).extend(w.replace("_", " ") for w in line.split())
     return {name: tuple(dict.fromkeys(words)) for name, words in lists.items()}
+
+
+@lru_cache(maxsize=1)
+def _shared_slots() -> SharedSlots:
+    return SharedSlots(SHARED, word_lists())

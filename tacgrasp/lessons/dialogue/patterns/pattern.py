@@ -10,6 +10,7 @@ A pattern is text with
     {*name}     an entry of a word list
 
 Not here: the patterns themselves (``tacgrasp.lessons.dialogue.families``), recognition
+(``tacgrasp.lessons.dialogue.patterns.reading``), what they can produce at all
 (``tacgrasp.lessons.dialogue.patterns.automaton``).
 """
 
@@ -79,13 +80,51 @@ Node = Literal | NumberSlot | ListSlot | Chain | OneOf | Bound
 _SYNTAX = re.compile(r"\(|\)|\[|\]|\||\{[#*]?\w+\}|[^\s()\[\]{}|]+")
 
 
-def compile_pattern(text: str, slots: Slots, lists: Mapping[str, Sequence[str]]) -> Node:
+class SharedSlots:
+    """Slots that many patterns have, each read once.
+
+    Args:
+        slots: The slots.
+        lists: The word lists.
+    """
+
+    def __init__(self, slots: Slots, lists: Mapping[str, Sequence[str]]) -> None:
+        self.slots = slots
+        self._compiler = _Compiler(slots, lists)
+        self._needed: dict[str, frozenset[str]] = {}
+
+    def node(self, name: str) -> Node:
+        """What a slot produces."""
+        return self._compiler.leaf(f"{{{name}}}")
+
+    def needed(self, name: str) -> frozenset[str]:
+        """Names of the slots that a slot is made of, its own among them."""
+        if name not in self._needed:
+            slot = self.slots[name]
+            text = slot if isinstance(slot, str) else " ".join(slot.values())
+            inner = (self.needed(part) for part in re.findall(r"\{(\w+)\}", text))
+            self._needed[name] = frozenset([name]).union(*inner)
+        return self._needed[name]
+
+
+def compile_pattern(
+    text: str,
+    slots: Slots,
+    lists: Mapping[str, Sequence[str]],
+    shared: SharedSlots | None = None,
+) -> Node:
     """Read a pattern.
+
+    Args:
+        text: The pattern.
+        slots: Its own slots, which stand for shared ones of the same name.
+        lists: The word lists.
+        shared: Slots that it has beside its own.
 
     Raises:
         ValueError: Brackets that don't match, or an unknown slot or list; the message names it.
     """
-    return _Compiler(slots, lists).compile(text)
+    return _Compiler(slots, lists, shared).compile(text)
 
 
 class _Compiler:
@@ -94,10 +133,17 @@ class _Compiler:
     Args:
         slots: The slots.
         lists: The word lists.
+        shared: Slots beside these, read by another compiler.
     """
 
-    def __init__(self, slots: Slots, lists: Mapping[str, Sequence[str]]) -> None:
-        self._slots, self._lists = slots, lists
+    def __init__(
+        self,
+        slots: Slots,
+        lists: Mapping[str, Sequence[str]],
+        shared: SharedSlots | None = None,
+    ) -> None:
+        self._own, self._lists, self._shared = frozenset(slots), lists, shared
+        self._slots = slots if shared is None else {**shared.slots, **slots}
         self._compiled: dict[str, Node] = {}
 
     def compile(self, text: str) -> Node:
@@ -125,11 +171,12 @@ class _Compiler:
                 at += 1
                 parts.append(OneOf((inner,), optional=True) if token == "[" else inner)
             else:
-                parts.append(self._leaf(token))
+                parts.append(self.leaf(token))
         choices.append(Chain(tuple(parts)))
         return (choices[0] if len(choices) == 1 else OneOf(tuple(choices))), at
 
-    def _leaf(self, token: str) -> Node:
+    def leaf(self, token: str) -> Node:
+        """What one token stands for."""
         if not token.startswith("{"):
             return Literal(token)
         name = token[1:-1]
@@ -143,7 +190,12 @@ class _Compiler:
         if name not in self._slots:
             raise ValueError(f"no slot is called {name!r}; known: {', '.join(self._slots)}")
         if name not in self._compiled:
-            self._compiled[name] = self._slot(name)
+            shared = self._shared
+            is_shared = shared is not None and name in shared.slots
+            if shared is not None and is_shared and not shared.needed(name) & self._own:
+                self._compiled[name] = shared.node(name)
+            else:
+                self._compiled[name] = self._slot(name)
         return self._compiled[name]
 
     def _slot(self, name: str) -> Node:

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from tacgrasp.lessons.dialogue.patterns.automaton import Automaton
-from tacgrasp.lessons.dialogue.patterns.pattern import compile_pattern, draw
+from tacgrasp.lessons.dialogue.patterns.pattern import SharedSlots, compile_pattern, draw
+from tacgrasp.lessons.dialogue.patterns.reading import WordingReader
 from tacgrasp.lessons.dialogue.plain_words import plain_text, plain_words
 
 SLOTS = {
@@ -69,15 +70,20 @@ def test_distinct_wordings_are_counted_once_and_a_list_as_one():
     assert Automaton(node()).num_wordings(10) == 10
 
 
-def test_draws_are_accepted_and_understood_as_they_were_drawn():
+def read(tree, text):
+    return WordingReader(plain_text(text)).understand(tree)
+
+
+def test_draws_are_accepted_and_read_as_they_were_drawn():
     rng = np.random.default_rng(3)
     automaton, tree = Automaton(node()), node()
     seen = set()
     for _ in range(200):
         drawn = draw(tree, rng)
         text = drawn.text({"n": "2.5"})
-        understood = automaton.understand(plain_text(text))
+        understood = read(tree, text)
         assert understood is not None, text
+        assert automaton.accepts(plain_words(text))
         assert understood.bindings == drawn.bindings
         assert understood.numbers == dict.fromkeys(drawn.numbers, 2.5)
         seen.add(" ".join(plain_words(text)))
@@ -92,7 +98,40 @@ def test_given_values_are_drawn():
 
 
 def test_another_text_is_not_understood():
-    assert Automaton(node()).understand(plain_text("is it up?")) is None
+    assert read(node(), "is it up?") is None
+    assert read(node(), "is it left now?") is None
+    assert read(node(), "") is None
+
+
+def test_what_can_be_written_out_is_read_and_a_mixture_of_two_names_is_not():
+    tree = node()
+    for text in wordings():
+        found = read(tree, text.replace("#", "2.5"))
+        assert found is not None, text
+        assert found.bindings["side"] == (
+            "left" if text.split("of")[0].rstrip().endswith("left") else "right"
+        )
+        assert found.numbers == ({"n": 2.5} if "#" in text else {})
+    pairs = compile_pattern("{*pairs}", {}, {"pairs": ("red wine", "blue ink")})
+    assert read(pairs, "red wine") is not None
+    assert read(pairs, "red ink") is None
+
+
+def test_the_first_way_that_leads_to_the_end_is_taken():
+    slots = {"n": {"one": "a [b]", "two": "a"}, "m": {"three": "b", "four": "b c"}}
+    found = read(compile_pattern("{n} {m}", slots, {}), "a b")
+    assert found.bindings == {"n": "one", "m": "three"}
+    found = read(compile_pattern("{n} {m}", slots, {}), "a b b c")
+    assert found.bindings == {"n": "one", "m": "four"}
+
+
+def test_a_slot_that_needs_one_of_the_patterns_own_is_not_shared():
+    shared = SharedSlots({"a": "x {b}", "b": "y", "c": "z"}, {})
+    own = compile_pattern("{a} {c}", {"b": "w"}, {}, shared)
+    assert read(own, "x w z") is not None
+    assert read(own, "x y z") is None
+    other = compile_pattern("{c}", {}, {}, shared)
+    assert other.parts[0] is own.parts[1]
 
 
 @pytest.mark.parametrize(

@@ -346,7 +346,7 @@ _WITH = "[with this (force|grip|squeeze)|at this force|at the present force|like
 _HOLDS_WORDING = AmountWording(
     asked=(
         Asked(
-            "how heavy (a (thing|load|part|weight|piece)|an (object|item))",
+            "how heavy (a (thing|load|part|weight|piece|{*objects})|an (object|item|{*objects}))",
             f"(can|could|would|will|may) {_GRIPPER} {_CARRY} {_WITH}",
             f"{_GRIPPER} (can|could|would|will) {_CARRY} {_WITH}",
         ),

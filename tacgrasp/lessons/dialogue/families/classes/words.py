@@ -43,7 +43,7 @@ SHAPE_NOUNS: Words = {
 """With their articles: 'it is ...', 'it feels like ...'."""
 
 SHAPE_ADJECTIVES: Words = {
-    "sphere": "(spherical|ball-shaped|round like a ball|ball-like|sphere-shaped)",
+    "sphere": "(spherical|round|ball-shaped|round like a ball|ball-like|sphere-shaped)",
     "ellipsoid": "(ellipsoidal|oval|egg-shaped|elliptical)",
     "cuboid": "(cuboid|rectangular|box-shaped|boxy|brick-shaped|block-shaped)",
     "triangle": "(triangular|three-sided|triangle-shaped)",

@@ -348,7 +348,11 @@ FAMILIES: tuple[QuestionFamily, ...] = (
             f"(are we allowed to|may we|may I|am I allowed to) {_HOLD} [{{thing}}] (this|so|that) "
             "(hard|tightly|firmly|much) {fine}|"
             "do we (use|apply) more force than (allowed|permitted|the contract allows) {much}|"
-            "have we (gone|got) (over|past|beyond) the [force|hard] limit {much}",
+            "have we (gone|got) (over|past|beyond) the [force|hard] limit {much}|"
+            "(will|does|would|could|might) {thing} {harmed} {much}|is {thing} (being|getting) {harmed_so} "
+            "{much}|(are|aren't) (we|you|the fingers) {harming} {thing} {much}|(will|do|would|could) "
+            "(we|I|you|the fingers|this force|this grip) {harm} {thing} {much}|is there (a|any) (risk|danger) (of "
+            "{harming} {thing}|that {thing} (bruises|breaks|bursts)) {much}",
             f"({_LIMITED}) is {{side}}|we are {{side}}|we {{keep}} {_LIMIT}|"
             f"({_LIMITED}) {{keeps}} {_LIMIT}|the [force|hard] limit (is|has been) {{been}}|"
             "(this|that) much force is (allowed|permitted) {fine}|"
@@ -367,6 +371,10 @@ FAMILIES: tuple[QuestionFamily, ...] = (
             },
             "fine": {"under": ""},
             "much": {"over": ""},
+            "harm": "(bruise|crush|squash|damage|harm|break|hurt|mash|dent)",
+            "harming": "(bruising|crushing|squashing|damaging|harming|breaking|hurting|mashing|denting)",
+            "harmed": "(bruise|burst|break|be (bruised|crushed|damaged|harmed|squashed)|get (bruised|crushed|damaged|squashed))",
+            "harmed_so": "(bruised|crushed|damaged|harmed|squashed)",
             "short": {
                 "over": "(over|above|past|beyond) the limit",
                 "under": "(under|below|within) the limit",

@@ -1,0 +1,43 @@
+"""Questions whose wording the grammar has are read by it, and the model is not asked."""
+
+import pytest
+
+from tacgrasp.lessons.understanding import understood, understood_in_turn
+
+
+class Refusing:
+    """A model that must not be asked."""
+
+    width = 8
+
+    def reply_to(self, touch, prompt, *, grammar):
+        raise AssertionError(f"the model was asked {prompt!r}")
+
+
+@pytest.mark.parametrize(
+    ("question", "query"),
+    [
+        ("Should I squeeze more?", "check force below."),
+        ("Is it a strawberry?", "unknown name."),
+        ("How warm is it?", "unknown temperature."),
+        ("Is it round?", "check shape sphere."),
+        ("How heavy a berry could you hold?", "amount holds g."),
+        ("Will it bruise?", "check force over."),
+        ("How deep is it, in microns?", "amount depth µm."),
+        ("Is the force above half a newton?", "check force > #1 N."),
+    ],
+)
+def test_a_wording_of_the_grammar_means_what_the_grammar_says(question, query):
+    read = understood(Refusing(), question)
+    assert read.query == query
+    assert read.confidence == 1.0
+
+
+def test_a_follow_up_of_the_grammar_is_read_behind_its_question():
+    read = understood_in_turn(Refusing(), "And in microns?", "How deep is it?")
+    assert read.query == "amount depth µm."
+
+
+def test_another_wording_is_put_to_the_model():
+    with pytest.raises(AssertionError, match="the model was asked 'does it fancy a waltz'"):
+        understood(Refusing(), "Does it fancy a waltz?")
