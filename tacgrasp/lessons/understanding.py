@@ -141,19 +141,24 @@ def understood_by_model(
 def understood_in_turn(writer: QueryWriter, question: str, before: str) -> ReadQuestion | None:
     """What a question means after another one.
 
-    One that begins as follow-ups do is read behind the question before it. So is another short one
+    One that begins as follow-ups do, or that the grammar has as one, is read behind the question
+    before it. So is another short one
     without a verb of its own where it means little alone, and that gives the likelier query.
     """
     if not before:
         return understood(writer, question)
     if _FOLLOWS.match(question):
         return understood(writer, question, before)
-    alone = understood(writer, question)
+    known = understood_by_grammar(question) or understood_by_grammar(question, before)
+    if known is not None:
+        return known
+    alone = understood_by_model(writer, question)
     stands_alone = alone is not None and alone.confidence >= ALONE_FROM
     stands_alone = stands_alone or bool(_STANDS_ALONE.match(question))
     if stands_alone or len(question.split()) > FOLLOW_UP_WORDS:
         return alone
-    read = [each for each in (alone, understood(writer, question, before)) if each is not None]
+    behind = understood_by_model(writer, question, before)
+    read = [each for each in (alone, behind) if each is not None]
     return max(read, key=lambda each: each.confidence, default=None)
 
 

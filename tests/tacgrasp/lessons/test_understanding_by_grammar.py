@@ -23,6 +23,14 @@ class Refusing:
         ("Is it round?", "check shape sphere."),
         ("How heavy a berry could you hold?", "amount holds g."),
         ("Will it bruise?", "check force over."),
+        ("Is it slippery?", "unknown trait."),
+        ("Should I move left or right?", "choice action."),
+        ("Is the object off to one side?", "check not position centered."),
+        ("Is something wrong?", "check not force within."),
+        ("Do I have to press harder to hold 60 g?", "check slips #1 g."),
+        ("Is 0.3 N too little?", "check band_low > #1 N."),
+        ("How many newtons do I need to lift it?", "amount band_low N."),
+        ("Is there room to squeeze harder?", "check force under."),
         ("How deep is it, in microns?", "amount depth µm."),
         ("Is the force above half a newton?", "check force > #1 N."),
     ],
@@ -31,6 +39,11 @@ def test_a_wording_of_the_grammar_means_what_the_grammar_says(question, query):
     read = understood(Refusing(), question)
     assert read.query == query
     assert read.confidence == 1.0
+
+
+def test_a_doubt_of_the_answer_before_asks_for_its_reason():
+    read = understood_in_turn(Refusing(), "Are you sure?", "Is it a sphere?")
+    assert read.query == "why shape."
 
 
 def test_a_follow_up_of_the_grammar_is_read_behind_its_question():

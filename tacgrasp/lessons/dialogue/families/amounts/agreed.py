@@ -50,6 +50,11 @@ _BAND_WORDING = AmountWording(
         ),
         Asked("what", f"is the ({_BOUND_FORCE})", f"the ({_BOUND_FORCE}) is"),
         Asked(
+            "(how much|what) (force|grip)",
+            "{needed}",
+            "{needs}",
+        ),
+        Asked(
             "what",
             "is the {end} (end|bound|edge|limit|boundary|border|value) of {band}",
             "the {end} (end|bound|edge|limit|boundary|border|value) of {band} is",
@@ -65,10 +70,10 @@ _BAND_WORDING = AmountWording(
     counted=(
         Asked(
             "how many {unit}",
-            f"(are|is) {_WANTED} {{at_end}}|do we need {{at_end}} {_FOR}|"
+            f"{{needed}}|(are|is) {_WANTED} {{at_end}}|do we need {{at_end}} {_FOR}|"
             f"should we {_SQUEEZE} with {{at_end}}|"
             "does {band} (ask for|want|call for) {at_end}|does {band} {edge} at",
-            f"are {_WANTED} {{at_end}}|we need {{at_end}}|{{band}} (asks for|wants) {{at_end}}",
+            f"{{needs}}|are {_WANTED} {{at_end}}|we need {{at_end}}|{{band}} (asks for|wants) {{at_end}}",
         ),
     ),
     nouns=(
@@ -107,12 +112,19 @@ _BAND_SLOTS: Slots = {
         "band_low": "(lower|low|bottom|lowest|minimum)",
         "band_high": "(upper|top|high|highest|maximum)",
     },
+    "needed": {
+        "band_low": "((do|would) (we|I|you) need [to (hold|lift|pick up|carry) {thing}]|does {thing} need [to be "
+        "(held|lifted)]|is (needed|necessary) (to (hold|lift|pick up) {thing}|for {thing}))",
+    },
+    "needs": {
+        "band_low": "((we|I|you) need [to (hold|lift|pick up|carry) {thing}]|{thing} needs|is needed to (hold|lift) {thing})",
+    },
     "at_end": {
         "band_low": "(at least|at the least|at a minimum|as a minimum|at the very least)",
         "band_high": "(at most|at the most|at a maximum|as a maximum|at the very most)",
     },
 }
-_BOUNDS = ("bound", "edge", "edges", "end", "at_end")
+_BOUNDS = ("bound", "edge", "edges", "end", "at_end", "needed", "needs")
 """Slots that name an end of the force band."""
 
 _LIMIT = (

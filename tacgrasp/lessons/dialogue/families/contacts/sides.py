@@ -126,6 +126,17 @@ FAMILIES: tuple[QuestionFamily, ...] = (
         },
     ),
     QuestionFamily(
+        name="off_center",
+        pattern=check_pattern(
+            "{thing}|{touch}|the contact point",
+            "off to (one|the|a) side|off [the] center|off-center|out of the (center|middle)|"
+            "away from the (center|middle)|to one side|on one side",
+        ),
+        build=lambda bindings, _: check_of(
+            "position centered", denied=True, length=length_of(bindings)
+        ),
+    ),
+    QuestionFamily(
         name="side_or",
         pattern=(
             "{lead} ( (is|was) ({thing}|{touch}) [rather] {pair} "

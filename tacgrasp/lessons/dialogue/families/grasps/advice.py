@@ -42,7 +42,14 @@ _CHANGES = (
     "is it better to {deed} or to {deed}|(should|shall|do) (we|I) ("
     "squeeze more, squeeze less or move|increase or decrease the force or move)|"
     "tighten, loosen or (shift|move|lift)|harder, softer or move|move, squeeze or lift|"
-    "do we (tighten, loosen or move|grip harder or softer or move)"
+    "do we (tighten, loosen or move|grip harder or softer or move)|"
+    "(should|shall|must|do) (we|I|the gripper) (move|go|shift|slide) [it] (left or right|right or left|up or down|down or up|"
+    "left , right , up or down|to the left or [to] the right)|"
+    "(which|what) (way|direction) (should|shall|must) (we|I|the gripper) (move|go|shift|correct|slide)|in (which|what) "
+    "direction (should|shall|must) (we|I|the gripper) (move|go|shift)|(where|where to|how far) (should|shall|must) "
+    "(we|I|the gripper) (move|go|shift)|(should|shall|must) (we|I) (move|shift|reposition|regrip) [the (gripper|hand|"
+    "fingers|grip)|{thing}]|(do|must) (we|I) (need|have) to (move|shift|reposition|regrip|realign) [the (gripper|hand|"
+    "fingers|grip)|{thing}]|(move|go) (left or right|up or down)|which way"
 )
 _NEXT = "(next|now|next|then|from here|at this point|here|first|in this situation)"
 
@@ -73,6 +80,7 @@ WHY_LAST = (
     "what (supports|backs up|justifies|explains) that|elaborate|help me understand why|"
     "I do not understand why|can I know why|would you mind explaining [that|why]|"
     "how can you (tell|say that|know that|be sure)|says who|why should that be|"
+    "are you (sure|certain|positive) [about (it|that|this)]|how (sure|certain|confident) are you [about (it|that)]|"
     "walk me through (it|that|your reasoning)|what gives you that idea|reason"
 )
 """Wordings that ask for the reason of the last answer."""

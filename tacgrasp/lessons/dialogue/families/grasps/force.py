@@ -6,9 +6,11 @@ next and why (``tacgrasp.lessons.dialogue.families.grasps.advice``).
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
-from tacgrasp.lessons.dialogue.conditions import check_of
+import numpy as np
+
+from tacgrasp.lessons.dialogue.conditions import check_of, number_text
 from tacgrasp.lessons.dialogue.meaning import Amount, Check, Several, Which
 from tacgrasp.lessons.dialogue.patterns.family import (
     Bindings,
@@ -17,6 +19,7 @@ from tacgrasp.lessons.dialogue.patterns.family import (
     length_of,
 )
 from tacgrasp.lessons.dialogue.patterns.phrases import amount_pattern
+from tacgrasp.lessons.dialogue.scene import AskedScene
 
 DEPTH_QUESTIONS = ("How deep is it?", "What is the depth?", "How far is it pressed in?")
 
@@ -144,6 +147,22 @@ def conditional(
         return check_of(f"{prefix}force {name}", denied=denied, length=length_of(bindings))
 
     return build
+
+
+def _force_named(bindings: Bindings, numbers: Numbers) -> Check:
+    return check_of(
+        f"{bindings['worth']} {number_text(numbers['n'])} N", length=length_of(bindings)
+    )
+
+
+def _near_an_end(
+    scene: AskedScene, bindings: Bindings, rng: np.random.Generator
+) -> Mapping[str, str]:
+    """A number below or above the end of the band, or the limit, that a wording speaks of [N]."""
+    end = scene.values()[f"{bindings['worth'].split()[0]}_n"]
+    middle = float(end) if isinstance(end, float) and end > 0 else 1.0
+    newtons = middle * float(np.exp(rng.choice([-1, 1]) * rng.uniform(0.15, 0.9)))
+    return {"n": number_text(max(0.05, round(newtons / 0.05) * 0.05))}
 
 
 def _wanted(bindings: Bindings, _: Numbers) -> Several:
@@ -343,6 +362,8 @@ FAMILIES: tuple[QuestionFamily, ...] = (
             f"{_LIMIT}|"
             "(is|has) the [force|hard] limit [been] {been}|"
             f"(are|do) we {_HOLDING} [{{thing}}] {{harder}}|"
+            "(can|may|could) (we|I|you) {further} [safely|any (further|more)|a (bit|little)|a bit (more|further)] {fine}|"
+            "is there [any|some|still] (room|space|leeway|headroom) [left] [to {further}] {fine}|"
             "is (this|that|so) much force (allowed|permitted) {fine}|"
             f"is ({_LIMITED}) (allowed|permitted) [by the contract] {{fine}}|"
             f"(are we allowed to|may we|may I|am I allowed to) {_HOLD} [{{thing}}] (this|so|that) "
@@ -371,6 +392,7 @@ FAMILIES: tuple[QuestionFamily, ...] = (
             },
             "fine": {"under": ""},
             "much": {"over": ""},
+            "further": f"({_HOLD} [{{thing}}] (harder|tighter|more firmly|more)|tighten [the grip]|(increase|raise) the (force|grip))",
             "harm": "(bruise|crush|squash|damage|harm|break|hurt|mash|dent)",
             "harming": "(bruising|crushing|squashing|damaging|harming|breaking|hurting|mashing|denting)",
             "harmed": "(bruise|burst|break|be (bruised|crushed|damaged|harmed|squashed)|get (bruised|crushed|damaged|squashed))",
@@ -437,6 +459,26 @@ FAMILIES: tuple[QuestionFamily, ...] = (
                 "above": f"{_HELD} (less firmly|less tightly|more gently|more loosely|softer)",
             },
         },
+    ),
+    QuestionFamily(
+        name="force_named",
+        pattern=asked_or_stated(
+            "(is|is|isn't) {#n} {unit} {worth}|(would|will|might) {#n} {unit} be {worth}|"
+            "(is|would) a force of {#n} {unit} [be] {worth}",
+            "{#n} {unit} (is|would be) {worth}|a force of {#n} {unit} is {worth}",
+            "{#n} {unit} , {worth}",
+        ),
+        build=_force_named,
+        slots={
+            "unit": "(N|N|newton|newtons)",
+            "worth": {
+                "band_low <=": "(enough|sufficient|adequate|plenty)",
+                "band_low >": "(too (little|weak|low|light|loose)|not enough|insufficient)",
+                "limit <": "(too (much|high|hard|strong)|more than (allowed|permitted)|over the limit)",
+                "limit >=": "(allowed|permitted|within the limit|acceptable|tolerated)",
+            },
+        },
+        choose=_near_an_end,
     ),
     QuestionFamily(
         name="force_band_word",

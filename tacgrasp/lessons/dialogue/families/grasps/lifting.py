@@ -34,7 +34,7 @@ _LIFTED = "(lifted [up|off]|raised|picked up|hoisted|carried [away]|taken up)"
 _WE = "(we|I|you|we|the robot|the arm|the gripper)"
 _HOLD = "(grip|grasp|hold)"
 _SAFE = "(safe|safe|OK|okay|all right|fine|wise|sensible|a good idea|advisable|possible)"
-_GOOD = "(good|fine|secure|right|OK|okay|safe|solid|reliable|all right|in order|sound|trustworthy)"
+_GOOD = "(good|fine|secure|stable|right|OK|okay|safe|solid|reliable|all right|in order|sound|trustworthy)"
 _READY = "(ready|fine|clear|good|OK|okay|all set|set|cleared|safe)"
 _RISKY = (
     "(risky|[too] risky|[too] dangerous|unsafe|unwise|a bad idea|too early|too soon|premature|"
@@ -72,7 +72,7 @@ _MIGHT = "(will|would|could|does|might)"
 
 _FATE_SLOTS = (
     *("fall", "unfall", "keep", "carry", "bear", "keeps", "firm", "danger", "sure", "enough"),
-    *("losing", "heavy", "more", "without"),
+    *("losing", "heavy", "more", "harder", "without"),
 )
 """Slots that name what becomes of the object."""
 
@@ -130,6 +130,7 @@ FAMILIES: tuple[QuestionFamily, ...] = (
             f"(to {_LIFT}|for the lift|for lifting)|do you (allow|permit|approve|recommend) "
             f"{_LIFTING}|"
             f"does the {_HOLD} (allow|permit) {_LIFTING}|does the {_HOLD} (feel|seem|look) {_GOOD}|"
+            "is (everything|all|it all) (fine|OK|okay|good|all right|as it should be|under control)|"
             "can the lift (start|begin)|is everything (ready|fine|OK|in order|set) (to lift|for "
             "the "
             "lift|for lifting)|are we all set|is {thing} safely (held|gripped|in the gripper)|"
@@ -145,7 +146,7 @@ FAMILIES: tuple[QuestionFamily, ...] = (
             f"we are {_READY} (to {_LIFT}|for the lift|for lifting)|we have a (good|safe|secure) "
             f"{_HOLD} [on {{thing}}]|{_LIFTING} (is|would be) {_SAFE}|we are good to go|"
             f"the {_HOLD} (feels|seems|looks) {_GOOD}|{{thing}} is safely (held|gripped)",
-            f"thumbs up for lifting|are we golden|up up and away|liftoff|lift-off|shall we|up we go|let us lift [it]|"
+            f"(everything|all) (fine|OK|okay|good|all right|under control)|thumbs up for lifting|are we golden|up up and away|liftoff|lift-off|shall we|up we go|let us lift [it]|"
             f"cleared for (lift-off|takeoff|lifting)|all systems go|good to go|ready for (takeoff|lift-off|lifting|the lift|a lift)|ready to {_LIFT}|"
             f"{_SAFE} to {_LIFT}|all (set|clear|good) (to {_LIFT}|for lifting|for the lift)|"
             f"clear to {_LIFT}|green light (to lift|for lifting|for the lift)|{_HOLD} {_GOOD}|"
@@ -165,6 +166,7 @@ FAMILIES: tuple[QuestionFamily, ...] = (
             f"| is the {_HOLD} not [yet] {_GOOD} [enough] [to lift|for lifting] "
             f"| is (the|our|this) {_HOLD} {_BAD} | is this (a (bad|poor|dodgy|shaky)|an (unsafe|"
             f"insecure)) {_HOLD} "
+            f"| (is|isn't) (something|anything) (wrong|amiss|not right|off) "
             f"| are we not [yet] ready to {_LIFT} | is {{thing}} not [yet] ready to be {_LIFTED} "
             f"| (should|must|shall) (we|I) (wait|hold off) (before lifting|with {_LIFTING}|"
             f"before we {_LIFT}) | should (we|I) (avoid|refrain from|hold back from) {_LIFTING} "
@@ -244,6 +246,8 @@ FAMILIES: tuple[QuestionFamily, ...] = (
             "{weight} {tail} [?] "
             f"| (do|would) we need {{more}} (for|to (hold|carry|lift)) ({_MASS}|a {{load}}) "
             f"{{tail}} ? "
+            f"| (do|must|would) (we|I) (have|need) to {{harder}} (for|to (hold|carry|lift)) ({_MASS}|a "
+            f"{{load}}) {{tail}} ? "
             f"| (do|does) (the grip|this grip) suffice for ({_MASS}|a {{load}}) {{keeps}} "
             f"{{tail}} ? "
             f"| (good|strong enough|enough|enough grip|enough force) for {_MASS} {{keeps}} "
@@ -280,6 +284,9 @@ FAMILIES: tuple[QuestionFamily, ...] = (
             "more": {
                 "slips": "(more force|a (firmer|tighter|stronger) (grip|hold)|more grip|"
                 "to (grip|squeeze|hold) harder|to tighten [the grip])"
+            },
+            "harder": {
+                "slips": "(grip|squeeze|press|hold) (harder|tighter|more|more firmly|[it] firmer)"
             },
             "enough": {
                 "stays": "(enough|sufficient|adequate|up to) (for|to (hold|carry|lift))",

@@ -37,6 +37,31 @@ FAMILIES: tuple[QuestionFamily, ...] = (
         build=lambda bindings, _: Unknowable(subject=SUBJECTS["trait"], length=length_of(bindings)),
         slots={"possessed": "(its {*properties}|the {*properties} [of {thing}])"},
     ),
+    QuestionFamily(
+        name="condition",
+        pattern=(
+            "{lead} [[{first_length}]] ( (is|is|isn't|was) {thing} [too|very|rather|quite|a bit|still] {state} "
+            "| is {thing} {state} or {state} | how {state} is {thing} | {state} or {state} "
+            "| does {thing} feel [too|very|rather|quite|a bit] {state} "
+            "| {whether} {thing} is [too|very|rather] {state} | {ask} how {state} {thing} is "
+            "| {believe} {thing} is [too|very|rather] {state} [{tag}] "
+            "| {thing} is [too|very|rather] {state} {tag} | (could|might) {thing} be {state} "
+            "| (can|could) you (tell|feel) (whether|if|how) {thing} is {state} "
+            "| {want} (its|the) {feature} [of {thing}] | what is (its|the) {feature} [of {thing}] "
+            ") {tail} [, {length}]"
+        ),
+        build=lambda bindings, _: Unknowable(subject=SUBJECTS["trait"], length=length_of(bindings)),
+        slots={
+            "state": (
+                "(wet|dry|damp|moist|sticky|slippery|slick|oily|greasy|soft|squishy|squashy|mushy|"
+                "elastic|springy|rubbery|brittle|pliable|bendy|fluffy|dirty|clean)"
+            ),
+            "feature": (
+                "(softness|hardness|stiffness|elasticity|wetness|stickiness|slipperiness|friction|"
+                "friction coefficient|cleanliness|dampness)"
+            ),
+        },
+    ),
     off(
         "subjects",
         "what (is|are) {*subjects}|what do you (think|know|say) about {*subjects}|"
