@@ -67,6 +67,8 @@ def _problem(event: tyro_errors.ParseErrorEvent, flags: object) -> str:
         case tyro_errors.MissingArgs(missing_arguments=missing):
             return f"missing: {', '.join(_name(one.arg) for one in missing)}"
         case tyro_errors.BadValue(argument=argument):
+            if argument.is_positional():
+                return f"missing: {_name(argument)}, which stands without a flag"
             count = argument.lowered.nargs
             return f"{_name(argument)} needs {'a value' if count == 1 else f'{count} values'}"
         case tyro_errors.InvalidChoice(argument=argument, value=value, choices=choices):

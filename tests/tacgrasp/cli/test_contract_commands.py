@@ -89,6 +89,7 @@ def test_understand_is_relative_to_the_task_that_it_is_asked_for(tmp_path: Path)
     ("argv", "expected"),
     [
         (["understand"], "instruction"),
+        (["understand", "--instruction", "Hold it."], "instruction, which stands without a flag"),
         (["understand", "Hold it.", "--task", "banana"], "unknown task 'banana'"),
         (["understand", "Hold it.", "--json", "no/where.json"], "can't be written"),
     ],
