@@ -131,7 +131,7 @@ _SHARE = re.compile(
     r"(?:pad|gel|sensor|surface|fingertip|skin)\b)"
 )
 _SINGLE = re.compile(
-    r"\b(?:an?|one)(?: (?:single|full|whole|entire|good))? (?=(?:milli|micro|mm\b))"
+    r"\b(?:an?|one)(?: (?:single|full|whole|entire|good))? (?=(?:milli|micro|kilo|mm\b))"
 )
 _MULTIPLES = {
     re.compile(pattern): word

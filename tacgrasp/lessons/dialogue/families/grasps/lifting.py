@@ -326,7 +326,7 @@ FAMILIES: tuple[QuestionFamily, ...] = (
             "unit": {"g": "(g|g|grams|gram)", "kg": "(kg|kilograms|kilos|kilo)"},
             "fixed": {
                 "0.5 kg": "(half a (kilo|kilogram|kg))",
-                "1 kg": "(one (kilo|kilogram))",
+                "1 kg": "((a|one) (kilo|kilogram))",
                 "2 kg": "two (kilos|kilograms)",
                 "100 g": "(a|one) hundred grams",
                 "200 g": "two hundred grams",
