@@ -49,7 +49,7 @@ def felt_by_another_sensor(source, folder, rng):
 
 parser = argparse.ArgumentParser()
 parser.add_argument("--frames", type=Path)
-for name, value in {"contacts": 460, "ours": 4000, "steps": 400, "joint-steps": 400}.items():
+for name, value in {"contacts": 460, "ours": 4000, "steps": 400, "joint-steps": 300}.items():
     parser.add_argument(f"--{name}", type=int, default=value)
 flags = parser.parse_args()
 

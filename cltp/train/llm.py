@@ -21,7 +21,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import NamedTuple, Protocol
 
@@ -63,7 +63,7 @@ STAGES = {
 FINE_TUNING = {"joint": Schedule(steps=1200, batch_size=16, learning_rate=6e-4)}
 """The stages of a training that starts from other weights."""
 
-OWN_STEPS = 400
+OWN_STEPS = 300
 """Steps of such a training on few contacts of one's own, mixed with ours."""
 
 UNIT_FACTORS = (0.5, 2.0)
@@ -81,6 +81,10 @@ BEFORE_TOUCH = ("text", "encoder")
 
 QUESTIONS = {"text": 256, "joint": 128, "words": 64}
 """Questions in each step of a stage, besides its contacts."""
+
+OWN_QUESTIONS = {"joint": 32}
+"""The same where one's own contacts are learned: questions are about none, and are known already;
+so few keep them."""
 
 QUESTION_ROW = 8
 """Questions in one sequence: more would leave more of its attention unused."""
@@ -154,6 +158,7 @@ def train_llm(
     layers: int = 4,
     augmentation: Augmentation | None = None,
     start: Path | None = None,
+    questions: Mapping[str, int] = QUESTIONS,
 ) -> Path:
     """Train, or continue training, and write ``projector`` and ``lm`` into ``run.out``.
 
@@ -168,6 +173,7 @@ def train_llm(
         augmentation: How contacts are varied.
         start: Folder of weights whose projector and language model are trained on; random ones
             when not given.
+        questions: Questions in each step of a stage, besides its contacts.
 
     Raises:
         TouchError: Data, encoder, start or a checkpoint can't be used.
@@ -182,7 +188,7 @@ def train_llm(
         begun = load_tac3d_llm(start, lm_folder=start / "lm")
         language, projector = begun.language, begun.projector
     model = Tac3dLlm(encoder, heads, projector, language).to(run.workers.device)
-    learner = ExchangeLearner(run, model, words, data, lessons, augmentation)
+    learner = ExchangeLearner(run, model, words, data, lessons, augmentation, questions)
     identity = {
         "data": data.checksum(),
         # Tells encoders apart; a stage must not continue behind another one.
@@ -192,6 +198,8 @@ def train_llm(
     }
     if start is not None:
         identity["start"] = manifest_digest(start / "projector")
+    if questions != QUESTIONS:
+        identity["questions"] = str(sorted(questions.items()))
     learned = nn.ModuleList([model.projector, model.lm])  # in every stage: checkpoints then chain
     schedules = schedules or (STAGES if start is None else FINE_TUNING)
     for number, name in enumerate(STAGES, start=1):
@@ -235,7 +243,7 @@ class ExchangeLearner:
     data: ContactDataset
     lessons: Lessons
     augmentation: Augmentation | None
-    questions: Mapping[str, int] = field(default_factory=lambda: QUESTIONS)
+    questions: Mapping[str, int]
 
     def train(self, stage: Stage, number: int) -> None:
         """Do the remaining steps of a stage, the ``number``-th of a training."""

@@ -114,7 +114,7 @@ class TrainLlmRequest(TrainAllRequest):
             tacgrasp eval --blind.
         start: Folder of weights, or the word shipped, whose projector and language model are
             trained on, in fewer steps, instead of random ones.
-        joint_steps: Optimiser steps with --start. Default: 1200; 400 with --also.
+        joint_steps: Optimiser steps with --start. Default: 1200; 300 with --also.
         also: Folder of a further data set to learn from, such as contacts of one's own.
         also_fraction: Fraction of it in each batch, between 0 and 1. Default: 0.5 with --start;
             without, the contacts of both sets come equally often.

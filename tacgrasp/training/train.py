@@ -34,7 +34,14 @@ from cltp.evaluation.splits import LEARNING_NOISE
 from cltp.llm.causal_lm import Language
 from cltp.texts.tokenizer import Words
 from cltp.train.distributed import joined_workers
-from cltp.train.llm import FINE_TUNING, OWN_STEPS, train_llm, train_words
+from cltp.train.llm import (
+    FINE_TUNING,
+    OWN_QUESTIONS,
+    OWN_STEPS,
+    QUESTIONS,
+    train_llm,
+    train_words,
+)
 from cltp.train.progress import Bar
 from cltp.train.recipes import Schedule
 from cltp.train.stage import TrainingRun
@@ -141,6 +148,7 @@ def train_language_model(request: TrainLlmRequest, command: str) -> None:
                 None if start is None else _tuning(request),
                 augmentation=LEARNING_NOISE,
                 start=start,
+                questions=QUESTIONS if request.also is None else OWN_QUESTIONS,
             )
     if _digest(out) == before or not workers.is_first:
         return  # nothing was left to do: the card with its scores still holds
