@@ -29,21 +29,21 @@ OPTION_PROBABILITY = 0.25
 """How often an optional part is drawn. Our choice: most questions are short."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Literal:
     """A piece of text, with its punctuation."""
 
     text: str
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class NumberSlot:
     """A number that is chosen when the question is put to a contact."""
 
     name: str
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class ListSlot:
     """An entry of a word list."""
 
@@ -51,14 +51,14 @@ class ListSlot:
     entries: tuple[str, ...]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Chain:
     """Parts one after another."""
 
     parts: tuple[Node, ...]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class OneOf:
     """One of some parts; ``optional`` adds the empty one."""
 
@@ -66,7 +66,7 @@ class OneOf:
     optional: bool = False
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Bound:
     """A part that gives a name its value."""
 

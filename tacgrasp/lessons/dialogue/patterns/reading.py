@@ -2,7 +2,7 @@
 
 A part of a pattern leads from a place between two words of the text to other places. Where it
 leads to is computed once for each part and place, so that the parts that many patterns share are
-read once.
+read once; parts that can't begin with the word there are passed over.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
+from typing import NamedTuple
 
 from tacgrasp.lessons.dialogue.patterns.pattern import (
     Bound,
@@ -75,7 +76,13 @@ class WordingReader:
             case Chain(parts):
                 return self._chain(parts, at)
             case OneOf(parts, optional):
-                ends = dict.fromkeys(end for part in parts for end in self._ends(part, at))
+                word = self._words[at] if self._is_in(at) else ""
+                tried = [
+                    part
+                    for part in parts
+                    if word in (begin := _begin(part)).words or begin.is_optional
+                ]
+                ends = dict.fromkeys(end for part in tried for end in self._ends(part, at))
                 return tuple(ends | {at: None} if optional else ends)
             case Bound(_, _, part):
                 return self._ends(part, at)
@@ -120,6 +127,41 @@ class WordingReader:
                     place = next(p for p in self._ends(part, at) if end in self._chain(behind, p))
                     self._bind(part, at, place, bindings, numbers)
                     at = place
+
+
+class _Begin(NamedTuple):
+    """How a part may begin.
+
+    Attributes:
+        words: Its first words.
+        is_optional: Whether it may be empty.
+    """
+
+    words: frozenset[str]
+    is_optional: bool
+
+
+@cache
+def _begin(node: Node) -> _Begin:
+    match node:
+        case Literal(text):
+            return _Begin(frozenset(_plain(text)[:1]), not _plain(text))
+        case Chain(parts):
+            words: set[str] = set()
+            for begin in map(_begin, parts):
+                words |= begin.words
+                if not begin.is_optional:
+                    return _Begin(frozenset(words), False)
+            return _Begin(frozenset(words), True)
+        case OneOf(parts, optional):
+            begins = [_begin(part) for part in parts]
+            words = set().union(*(begin.words for begin in begins))
+            return _Begin(frozenset(words), optional or any(b.is_optional for b in begins))
+        case Bound(_, _, part):
+            return _begin(part)
+        case ListSlot(_, entries):
+            return _Begin(frozenset(_by_first_word(entries)), False)
+    return _Begin(frozenset([NUMBER]), False)
 
 
 @cache
