@@ -142,8 +142,8 @@ def understood_in_turn(writer: QueryWriter, question: str, before: str) -> ReadQ
     """What a question means after another one.
 
     One that begins as follow-ups do, or that the grammar has as one, is read behind the question
-    before it. So is another short one
-    without a verb of its own where it means little alone, and that gives the likelier query.
+    before it. So is another short one, without a verb of its own, where it means little alone, and
+    that gives the likelier query.
     """
     if not before:
         return understood(writer, question)
