@@ -7,7 +7,6 @@ contract (``policies.contract_steps``), keeping its limit (``primitives.force_gu
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
@@ -141,10 +140,10 @@ def _take_words(draft: _Draft, request: Request, task: TaskTerms, *, is_own: boo
             f"{numbers.pressure!r} is a pressure, and the area of the contact is not known before "
             "it is touched; name the force, for example '1.5 N'"
         )
-    if re.search(r"%|per ?cent", numbers.unitless):
-        raise RefusedError(f"{numbers.unitless} of what is not said; name the force: '0.5 N'")
     if numbers.unitless:
         raise RefusedError(f"{numbers.unitless} has no unit; say '{numbers.unitless} N'")
+    if numbers.percentage:
+        raise RefusedError(f"{numbers.percentage} of what is not said; name the force: '0.5 N'")
     if numbers.denied:
         raise RefusedError(
             f"it says what not to hold with ({numbers.denied}), and names no other force"

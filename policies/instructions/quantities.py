@@ -48,8 +48,8 @@ class Quantities:
         slip_mm, depth_mm: Largest slip, and depth, that are named [mm]; None where none is.
         area_fraction: Part of the pad in contact that is named; None where none is.
         pressure: Words of a pressure that is named in place of a force; '' for none.
-        unitless: A number that stands where a force would, without a unit, or a percentage of
-            nothing; '' for none.
+        unitless: A number that stands where a force would, without a unit; '' for none.
+        percentage: A percentage of nothing, where a force would stand; '' for none.
         denied: Words of a force that is not to be used, where no other one is named; '' for none.
         rest: The plain text with each quantity and its relation replaced by ``MARK``.
     """
@@ -63,6 +63,7 @@ class Quantities:
     area_fraction: float | None = None
     pressure: str = ""
     unitless: str = ""
+    percentage: str = ""
     denied: str = ""
     rest: str = ""
 
@@ -247,8 +248,8 @@ def read_quantities(text: str) -> Quantities:
     delta_n, text = _delta(text)
     forces, denied, text = _forces(text)
     factor, factor_words, text = _factor(text)
-    if factor is None and area is None and (part := _PERCENT_OF_NOTHING.search(text)):
-        unitless = unitless or part[1]
+    is_alone = factor is None and area is None
+    percentage = _PERCENT_OF_NOTHING.search(text) if is_alone else None
     return Quantities(
         forces=tuple(forces),
         delta_n=delta_n,
@@ -259,6 +260,7 @@ def read_quantities(text: str) -> Quantities:
         area_fraction=None if area is None else number(area["a"]) / 100,
         pressure="" if pressure is None else pressure[0],
         unitless=unitless,
+        percentage="" if percentage is None else percentage[1],
         denied=denied,
         rest=text,
     )

@@ -130,6 +130,7 @@ def _nothing_asked(numbers: Quantities) -> str:
         or numbers.factor is not None
         or numbers.pressure
         or numbers.unitless
+        or numbers.percentage
         or numbers.denied
     ):
         parts = sentences(numbers.rest)

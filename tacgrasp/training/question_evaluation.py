@@ -150,15 +150,8 @@ def evaluate_questions(
             confidences: list[float] = []
             spoken = spoken_once(talker, contacts)
             alone = by_model(talker)
-            model = asked_model(
-                lambda question, before: (
-                    understood_by_grammar(question, before) or alone(question, before)
-                ),
-                spoken,
-                len(asked),
-                report,
-                confidences=confidences,
-            )
+            meant = by_grammar_or(alone)
+            model = asked_model(meant, spoken, len(asked), report, confidences=confidences)
             answers = answer_all(asked, model)
             without = answer_all(asked, asked_model(alone, spoken, len(asked), silent))
             felt = answer_all(asked, truth_as_felt(spoken))
@@ -219,6 +212,16 @@ def by_model(talker: Talker) -> Understanding:
     @cache
     def meant(question: str, before: str) -> ReadQuestion | None:
         return understood_by_model(talker, question, before)
+
+    return meant
+
+
+def by_grammar_or(other: Understanding) -> Understanding:
+    """What each question means by the grammar, or else to another; each is read once."""
+
+    @cache
+    def meant(question: str, before: str) -> ReadQuestion | None:
+        return understood_by_grammar(question, before) or other(question, before)
 
     return meant
 

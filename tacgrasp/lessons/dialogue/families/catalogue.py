@@ -57,11 +57,12 @@ def understand(text: str, *, before: str = "") -> Meaning | None:
     earlier = understand(before) if before else None
     reader = WordingReader(plain_text(text))
     for family in sorted(FAMILIES, key=lambda each: bool(each.before) != bool(before)):
+        understood = reader.understand(family.node)
+        if understood is None:
+            continue
         if family.before and (earlier is None or truth_of(earlier) not in _truths_before(family)):
             continue
-        understood = reader.understand(family.node)
-        if understood is not None:
-            return family.build(understood.bindings, understood.numbers)
+        return family.build(understood.bindings, understood.numbers)
     return None
 
 

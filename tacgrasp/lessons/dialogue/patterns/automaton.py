@@ -14,8 +14,16 @@ from collections.abc import Iterable, Mapping, Sequence
 from functools import cache, cached_property
 from typing import NamedTuple
 
-from tacgrasp.lessons.dialogue.patterns.pattern import Bound, Chain, ListSlot, Literal, Node, OneOf
-from tacgrasp.lessons.dialogue.plain_words import NUMBER, plain_words
+from tacgrasp.lessons.dialogue.patterns.pattern import (
+    Bound,
+    Chain,
+    ListSlot,
+    Literal,
+    Node,
+    OneOf,
+    literal_words,
+)
+from tacgrasp.lessons.dialogue.plain_words import NUMBER
 
 
 class _State(NamedTuple):
@@ -177,7 +185,7 @@ class _Builder:
     def _before(self, node: Node, end: int) -> int:
         match node:
             case Literal(text):
-                for word in reversed(_plain(text)):
+                for word in reversed(literal_words(text)):
                     end = self.state(word, (end,))
                 return end
             case ListSlot(name, entries):
@@ -210,16 +218,11 @@ class _Builder:
 
 
 @cache
-def _plain(text: str) -> tuple[str, ...]:
-    return plain_words(text)
-
-
-@cache
 def _classes(entries: tuple[str, ...]) -> Mapping[int, tuple[frozenset[str], ...]]:
     """Words at each place of the entries, by the entries' number of words."""
     by_length: dict[int, list[tuple[str, ...]]] = {}
     for entry in entries:
-        words = _plain(entry)
+        words = literal_words(entry)
         by_length.setdefault(len(words), []).append(words)
     return {
         length: tuple(frozenset(words[place] for words in group) for place in range(length))

@@ -19,8 +19,11 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
+
+from tacgrasp.lessons.dialogue.plain_words import plain_words
 
 Slots = Mapping[str, "str | Mapping[str, str]"]
 """Slots by name: a pattern, or a table from values to patterns."""
@@ -75,6 +78,12 @@ class Bound:
     part: Node
 
 
+@cache
+def literal_words(text: str) -> tuple[str, ...]:
+    """Plain words of a piece of a pattern, or of an entry of a word list."""
+    return plain_words(text)
+
+
 Node = Literal | NumberSlot | ListSlot | Chain | OneOf | Bound
 
 _SYNTAX = re.compile(r"\(|\)|\[|\]|\||\{[#*]?\w+\}|[^\s()\[\]{}|]+")
@@ -91,20 +100,22 @@ class SharedSlots:
     def __init__(self, slots: Slots, lists: Mapping[str, Sequence[str]]) -> None:
         self.slots = slots
         self._compiler = _Compiler(slots, lists)
-        self._needed: dict[str, frozenset[str]] = {}
+        self._parts: dict[str, frozenset[str]] = {}
 
-    def node(self, name: str) -> Node:
-        """What a slot produces."""
+    def node(self, name: str, own: frozenset[str]) -> Node | None:
+        """What a slot produces; None where it is none of these, or needs one of some own slots."""
+        if name not in self.slots or self._needed(name) & own:
+            return None
         return self._compiler.leaf(f"{{{name}}}")
 
-    def needed(self, name: str) -> frozenset[str]:
+    def _needed(self, name: str) -> frozenset[str]:
         """Names of the slots that a slot is made of, its own among them."""
-        if name not in self._needed:
+        if name not in self._parts:
             slot = self.slots[name]
             text = slot if isinstance(slot, str) else " ".join(slot.values())
-            inner = (self.needed(part) for part in re.findall(r"\{(\w+)\}", text))
-            self._needed[name] = frozenset([name]).union(*inner)
-        return self._needed[name]
+            inner = (self._needed(part) for part in re.findall(r"\{(\w+)\}", text))
+            self._parts[name] = frozenset([name]).union(*inner)
+        return self._parts[name]
 
 
 def compile_pattern(
@@ -190,12 +201,8 @@ class _Compiler:
         if name not in self._slots:
             raise ValueError(f"no slot is called {name!r}; known: {', '.join(self._slots)}")
         if name not in self._compiled:
-            shared = self._shared
-            is_shared = shared is not None and name in shared.slots
-            if shared is not None and is_shared and not shared.needed(name) & self._own:
-                self._compiled[name] = shared.node(name)
-            else:
-                self._compiled[name] = self._slot(name)
+            shared = None if self._shared is None else self._shared.node(name, self._own)
+            self._compiled[name] = shared or self._slot(name)
         return self._compiled[name]
 
     def _slot(self, name: str) -> Node:

@@ -20,8 +20,9 @@ from tacgrasp.lessons.dialogue.patterns.pattern import (
     Node,
     NumberSlot,
     OneOf,
+    literal_words,
 )
-from tacgrasp.lessons.dialogue.plain_words import NUMBER, PlainText, plain_words
+from tacgrasp.lessons.dialogue.plain_words import NUMBER, PlainText
 
 Places = tuple[int, ...]
 
@@ -70,7 +71,7 @@ class WordingReader:
     def _read(self, node: Node, at: int) -> Places:
         match node:
             case Literal(text):
-                words = _plain(text)
+                words = literal_words(text)
                 end = at + len(words)
                 return (end,) if self._words[at:end] == words else ()
             case Chain(parts):
@@ -145,7 +146,7 @@ class _Begin(NamedTuple):
 def _begin(node: Node) -> _Begin:
     match node:
         case Literal(text):
-            return _Begin(frozenset(_plain(text)[:1]), not _plain(text))
+            return _Begin(frozenset(literal_words(text)[:1]), not literal_words(text))
         case Chain(parts):
             words: set[str] = set()
             for begin in map(_begin, parts):
@@ -165,15 +166,10 @@ def _begin(node: Node) -> _Begin:
 
 
 @cache
-def _plain(text: str) -> tuple[str, ...]:
-    return plain_words(text)
-
-
-@cache
 def _by_first_word(entries: tuple[str, ...]) -> Mapping[str, Sequence[tuple[str, ...]]]:
     """Plain words of entries, by the first of them."""
     found: dict[str, list[tuple[str, ...]]] = {}
-    for words in map(plain_words, entries):
+    for words in map(literal_words, entries):
         if words:
             found.setdefault(words[0], []).append(words)
     return found
