@@ -241,6 +241,32 @@ class Talker:
             close_calls=said.close_calls,
         )
 
+    @torch.inference_mode()
+    def log_likelihoods(self, prompt: str, replies: Sequence[str]) -> list[float]:
+        """Log-probabilities of whole replies to a prompt without touch, each to its end.
+
+        One that its positions do not suffice for has minus infinity.
+
+        Args:
+            prompt: A person's question.
+            replies: The replies.
+        """
+        asked = self._language.embed(self._language.prompt(prompt))
+        decoder: FastDecoder | _Run = self._fast or _Run(self._language)
+        first = decoder.begin(asked)
+        logs = []
+        for reply in replies:
+            tokens = [*self._language.tokens.encode_marked(reply)[0], self._language.end]
+            if len(asked) + len(tokens) > decoder.longest:
+                logs.append(-math.inf)
+                continue
+            decoder.rewind(len(asked))
+            states = torch.cat([first, decoder.advance(tokens[:-1])])
+            logits = self._fast.logits(states) if self._fast is not None else states
+            each = torch.log_softmax(logits.float(), dim=-1)[range(len(tokens)), tokens]
+            logs.append(float(each.sum()))
+        return logs
+
 
 def _durations(stages: Sequence[str], marks: Sequence[float]) -> dict[str, float]:
     """Durations [ms] of stages between marks [s]."""

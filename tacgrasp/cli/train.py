@@ -304,6 +304,43 @@ class TrainReserveFlags:
             )
 
 
+@dataclass(frozen=True)
+class TrainQueriesFlags:
+    """Train the classifier of questions on wordings of their grammar; needs no data.
+
+    Attributes:
+        out: Folder of the classifier, and of its checkpoint.
+        questions: Number of wordings that are drawn.
+        steps: Optimiser steps.
+        seed: Random seed of wordings, weights and order.
+        threads: Threads of torch; one for each core when not given.
+    """
+
+    out: Path
+    questions: int = 800_000
+    steps: int = 6000
+    seed: int = 0
+    threads: int | None = None
+
+    def train(self) -> None:
+        """Draw wordings, train and write."""
+        if min(self.questions, self.steps) < 1:
+            raise UsageError("--questions and --steps must be at least 1")
+        import torch
+
+        from tacgrasp.console import make_console
+        from tacgrasp.training.query_classifier import QueryClassifierRequest, train
+
+        if self.threads is not None:
+            torch.set_num_threads(self.threads)
+        request = QueryClassifierRequest(
+            out=self.out, questions=self.questions, steps=self.steps, seed=self.seed
+        )
+        console = make_console()
+        right = train(request, console)
+        console.print(f"written   {self.out}; {right:.1%} of wordings held out are read rightly")
+
+
 STAGES: dict[str, tuple[type[Any], str]] = {
     "clip": (TrainClipFlags, "Align the small CLIP on images and captions."),
     "cltp": (TrainCltpFlags, "Align the tactile encoder with the frozen CLIP."),
@@ -313,6 +350,7 @@ STAGES: dict[str, tuple[type[Any], str]] = {
     "point-bert": (TrainMethodFlags, "Baseline: predict hidden patches in a vocabulary of shapes."),
     "tvl": (TrainMethodFlags, "Baseline: an image encoder aligned with words for textures."),
     "unitouch": (TrainMethodFlags, "Baseline: an image encoder aligned with names of objects."),
+    "queries": (TrainQueriesFlags, "What reads questions beside the language model."),
     "slip": (TrainSlipFlags, "The slip models of all sensors that measure shear."),
     "reserve": (TrainReserveFlags, "What tells how much a held contact could still carry."),
     "random": (TrainRandomFlags, "Floor: an encoder that has learned nothing."),
@@ -336,7 +374,7 @@ def main(argv: Sequence[str]) -> int:
     if isinstance(flags, MethodsFlags):
         flags.train(stage, command)
         return 0
-    if isinstance(flags, TrainSlipFlags | TrainReserveFlags):
+    if isinstance(flags, TrainQueriesFlags | TrainSlipFlags | TrainReserveFlags):
         flags.train()
         return 0
     from tacgrasp.training import train, upkeep

@@ -3,7 +3,8 @@
 The grammar (``tacgrasp.lessons.dialogue.families``) says exactly what its wordings mean. For every
 other one the model, which learned from them, writes a query under the grammar of queries
 (``tacgrasp.lessons.dialogue.query``), without any touch: what a question asks for does not hang on
-the contact.
+the contact. A classifier of questions (``tacgrasp.lessons.query_classifier``) names others, and the
+query is taken whose probabilities by both have the largest geometric mean.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ import math
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from itertools import islice
 from statistics import NormalDist
 from typing import NamedTuple, Protocol
 
@@ -34,6 +36,7 @@ from tacgrasp.lessons.dialogue.query import (
 )
 from tacgrasp.lessons.dialogue.scene import AskedScene
 from tacgrasp.lessons.dialogue.tolerances import tolerance_of
+from tacgrasp.lessons.query_classifier import QueryOdds
 
 PROBABLY_BELOW = 0.6
 """Probability of a word below which an answer says 'probably'. As in D_t."""
@@ -50,6 +53,13 @@ _STEPS = [
     _NORMAL.inv_cdf((number + 0.5) / DRAWS) / _NORMAL.inv_cdf(0.95) for number in range(DRAWS)
 ]
 """Quantiles of a normal distribution, with the end of an interval at 1."""
+
+NAMED = 12
+"""Queries that the classifier names beside the model's. Our choice: the right one is seldom a
+later one."""
+
+LEAST_LOG = -9.0
+"""Log-probability that counts as none: neither model nor classifier excludes a query alone."""
 
 FOLLOW_UP_WORDS = 5
 """Longest question [words] that may be a follow-up without beginning as one. Our choice."""
@@ -84,6 +94,10 @@ class QueryWriter(Protocol):
         """Reply to a prompt behind touch embeddings, here none."""
         ...
 
+    def log_likelihoods(self, prompt: str, replies: Sequence[str]) -> list[float]:
+        """Log-probabilities of whole replies to a prompt without touch."""
+        ...
+
 
 class ReadQuestion(NamedTuple):
     """What a question means.
@@ -91,7 +105,8 @@ class ReadQuestion(NamedTuple):
     Attributes:
         query: It as a query.
         meaning: The query's meaning.
-        confidence: Probability of the query, as the product over its parts; 1 by the grammar.
+        confidence: Probability of the query among those that model or classifier name; 1 by the
+            grammar.
     """
 
     query: str
@@ -127,15 +142,28 @@ def understood_by_grammar(question: str, before: str = "") -> ReadQuestion | Non
 def understood_by_model(
     writer: QueryWriter, question: str, before: str = ""
 ) -> ReadQuestion | None:
-    """What a question means to the model alone; None where it comes to no query."""
+    """What a question means to model and classifier; None where they come to no query."""
     asked = asked_text(question, before)
     grammar = query_grammar(len(asked.numbers))
     reply = writer.reply_to(torch.zeros(0, writer.width), asked.words, grammar=grammar)
-    meaning = read_query(reply.text, asked.numbers) if reply.ended else None
-    if meaning is None:
+    if not reply.ended:
         return None
-    confidence = math.prod(slot.probability for slot in reply.slots.values())
-    return ReadQuestion(reply.text, meaning, confidence)
+    odds = QueryOdds(asked.words)
+    queries = dict.fromkeys((reply.text, *islice(odds.likeliest(), NAMED)))
+    meanings = {query: read_query(query, asked.numbers) for query in queries}
+    possible = [query for query, meaning in meanings.items() if meaning is not None]
+    if not possible:
+        return None
+    written = writer.log_likelihoods(asked.words, possible)
+    logs = [
+        (max(log, LEAST_LOG) + max(odds.of(query), LEAST_LOG)) / 2
+        for query, log in zip(possible, written, strict=True)
+    ]
+    weights = np.exp(np.array(logs) - max(logs))
+    best = int(weights.argmax())
+    meaning = meanings[possible[best]]
+    assert meaning is not None
+    return ReadQuestion(possible[best], meaning, float(weights[best] / weights.sum()))
 
 
 def understood_in_turn(writer: QueryWriter, question: str, before: str) -> ReadQuestion | None:

@@ -207,6 +207,8 @@ def query_of(meaning: Meaning, numbers: Sequence[float] = ()) -> str:
 def read_query(query: str, numbers: Sequence[float] = ()) -> Meaning | None:
     """The meaning of a query; None where it names a number that the question does not have.
 
+    A part that it has twice is answered once.
+
     Raises:
         ValueError: It is no query.
     """
@@ -216,7 +218,7 @@ def read_query(query: str, numbers: Sequence[float] = ()) -> Meaning | None:
             length, query = each, query.removesuffix(f"{ending}.") + "."
     if not query.endswith("."):
         raise ValueError(f"a query ends with a full stop, got {query!r}")
-    texts = query[:-1].split("; ")
+    texts = list(dict.fromkeys(query[:-1].split("; ")))
     if any(int(number) > len(numbers) for number in _REFERENCE.findall(query)):
         return None
     if len(texts) == 1:

@@ -2,6 +2,7 @@
 
 import io
 import json
+from collections.abc import Sequence
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -10,7 +11,6 @@ import pytest
 import torch
 
 from cltp.encoder.reader import Flag
-from cltp.llm.constrained.decode import SlotDecision
 from cltp.llm.constrained.grammar import Grammar, match
 from cltp.llm.generation import Reply
 from cltp.tactile.force_scale import ForceScale
@@ -21,6 +21,7 @@ from tacgrasp import policy_factory
 from tacgrasp.__main__ import main
 from tacgrasp.lessons import understanding
 from tacgrasp.playback import conversation
+from tests.fakes.query_odds import NoOdds
 from tests.fakes.question_scenes import HELD
 from tests.fakes.tiny_weights import bump
 
@@ -43,7 +44,6 @@ class Writer:
         assert touch.shape == (0, 4)
         assert match(grammar, self.query)[1]
         self.prompts.append(prompt)
-        slot = SlotDecision(name="", chosen="", probability=0.5, rival="", probabilities={})
         return Reply(
             text=self.query,
             ended=True,
@@ -51,8 +51,10 @@ class Writer:
             action=None,
             probabilities=(),
             stage_ms={},
-            slots={"first": slot},
         )
+
+    def log_likelihoods(self, prompt: str, replies: Sequence[str]) -> list[float]:
+        return [0.0 for _ in replies]
 
 
 @pytest.fixture
@@ -68,6 +70,7 @@ def talker(monkeypatch: pytest.MonkeyPatch) -> Writer:
     spoken = SpokenContact(HELD.state, {"shape": 0.5}, {"depth_mm": (0.16, 0.25)})
     monkeypatch.setattr(conversation, "spoken_contact", lambda *_: spoken)
     monkeypatch.setattr(understanding, "understand", lambda *_, **__: None)  # the writer decides
+    monkeypatch.setattr(understanding, "QueryOdds", NoOdds)
     flagged = SimpleNamespace(flags=(Flag.NOISE,))
     monkeypatch.setattr(conversation, "reading_of", lambda *_: flagged)
     return writer
@@ -138,7 +141,7 @@ def test_programs_get_value_unit_confidence_query_and_flags(
         "kind": "number",
         "value": 190.0,
         "unit": "µm",
-        "confidence": pytest.approx(0.5 * 59 / 64),
+        "confidence": pytest.approx(59 / 64),
         "decidable": True,
         "interval": pytest.approx([160, 250], abs=15),
         "query": "amount depth µm.",
@@ -151,7 +154,7 @@ def test_programs_get_value_unit_confidence_query_and_flags(
     talker.query = "word shape."
     assert main(["ask", touch, "What shape is it?", "--json"]) == 0
     said = json.loads(capsys.readouterr().out)
-    assert (said["answer"], said["confidence"]) == ("Probably it is an ellipsoid.", 0.25)
+    assert (said["answer"], said["confidence"]) == ("Probably it is an ellipsoid.", 0.5)
 
 
 def test_an_untouched_pad_answers_by_the_contact_test(

@@ -1,22 +1,46 @@
 """From a question to its answer, by a model that writes what it is told to."""
 
+import math
 from types import SimpleNamespace
 
 import pytest
 
 from tacgrasp.lessons import understanding
-from tacgrasp.lessons.understanding import NOT_UNDERSTOOD, answered, understood, understood_in_turn
+from tacgrasp.lessons.query_classifier import QueryOdds
+from tacgrasp.lessons.understanding import (
+    NOT_UNDERSTOOD,
+    ReadQuestion,
+    answered,
+    understood,
+    understood_in_turn,
+)
 from tests.fakes.question_scenes import HELD, UNTOUCHED
+
+
+class Odds:
+    """Names one rival of the model's query, and finds all equally likely."""
+
+    rival = "amount spare g."
+
+    def __init__(self, words):
+        self.words = words
+
+    def likeliest(self):
+        return iter([self.rival])
+
+    def of(self, query):
+        return 0.0
 
 
 @pytest.fixture(autouse=True)
 def wordings_unknown_to_the_grammar(monkeypatch):
     """Every question is left to the model."""
     monkeypatch.setattr(understanding, "understand", lambda *_, **__: None)
+    monkeypatch.setattr(understanding, "QueryOdds", Odds)
 
 
 class Writer:
-    """Writes one query with a probability of 0.9 for each of its two parts."""
+    """Writes one query, which is so much likelier to it than the rival that it has 0.81."""
 
     width = 8
 
@@ -25,8 +49,10 @@ class Writer:
 
     def reply_to(self, touch, prompt, *, grammar):
         self.prompt = prompt
-        slots = {name: SimpleNamespace(probability=0.9) for name in ("first", "second")}
-        return SimpleNamespace(text=self.query, ended=self.ended, slots=slots)
+        return SimpleNamespace(text=self.query, ended=self.ended)
+
+    def log_likelihoods(self, prompt, replies):
+        return [0.0 if reply == self.query else 2 * math.log(0.19 / 0.81) for reply in replies]
 
 
 def test_the_numbers_of_a_question_come_from_the_question():
@@ -86,7 +112,8 @@ def test_a_number_has_an_interval_in_its_unit_that_no_amount_makes_negative():
     assert answered(asked, UNTOUCHED, {}, {}).interval is None
 
 
-def test_a_question_that_comes_to_nothing_is_not_answered():
+def test_a_question_that_comes_to_nothing_is_not_answered(monkeypatch):
+    monkeypatch.setattr(Odds, "rival", "check depth > #3 mm.")
     for asked in (
         understood(Writer("check force > #2 N."), "Is it above 1 N?"),
         understood(Writer("word", ended=False), "What shape is it?"),
@@ -105,18 +132,18 @@ def test_an_untouched_pad_still_has_a_contract():
     assert answered(depth, UNTOUCHED).answer.text == "Nothing touches the pad."
 
 
-class Chooser:
-    """Writes one query with a probability of its own for each prompt."""
+@pytest.fixture
+def confidences(monkeypatch):
+    """Confidences of what the model reads, by its prompt."""
+    known = {}
 
-    width = 8
+    def read(writer, question, before=""):
+        query = "amount depth µm." if before else "other."
+        prompt = understanding.asked_text(question, before).words
+        return ReadQuestion(query, understanding.read_query(query), known[prompt])
 
-    def __init__(self, probabilities):
-        self.probabilities = probabilities
-
-    def reply_to(self, touch, prompt, *, grammar):
-        slots = {"first": SimpleNamespace(probability=self.probabilities[prompt])}
-        text = "amount depth µm." if "?" in prompt else "other."
-        return SimpleNamespace(text=text, ended=True, slots=slots)
+    monkeypatch.setattr(understanding, "understood_by_model", read)
+    return known
 
 
 BEFORE = "How deep is it?"
@@ -132,14 +159,45 @@ BEFORE = "How deep is it?"
         ("Has it moved?", 0.3, 0.9, "other."),  # has a verb of its own
     ],
 )
-def test_a_follow_up_is_read_behind_the_question_before(question, alone, behind, query):
+def test_a_follow_up_is_read_behind_the_question_before(
+    question, alone, behind, query, confidences
+):
     words = question.lower().rstrip("?!")
-    chances = {words: alone, f"how deep is it ? {words}": behind}
-    assert understood_in_turn(Chooser(chances), question, BEFORE).query == query
+    confidences |= {words: alone, f"how deep is it ? {words}": behind}
+    assert understood_in_turn(Writer(""), question, BEFORE).query == query
 
 
-def test_without_a_question_before_nothing_follows():
-    assert (
-        understood_in_turn(Chooser({"and in microns": 0.5}), "And in microns?", "").query
-        == "other."
-    )
+def test_without_a_question_before_nothing_follows(confidences):
+    confidences["and in microns"] = 0.5
+    assert understood_in_turn(Writer(""), "And in microns?", "").query == "other."
+
+
+class Sure(Odds):
+    """Is sure of one query."""
+
+    def of(self, query):
+        return 0.0 if query == self.rival else -8.0
+
+
+@pytest.mark.parametrize(
+    ("likelihood", "query"), [(-3.0, "amount spare g."), (-30.0, "word shape.")]
+)
+def test_the_classifier_overrules_a_model_in_doubt_but_not_one_that_excludes(
+    likelihood, query, monkeypatch
+):
+    class Doubtful(Writer):
+        def log_likelihoods(self, prompt, replies):
+            return [0.0 if reply == self.query else likelihood for reply in replies]
+
+    monkeypatch.setattr(understanding, "QueryOdds", Sure)
+    asked = understood(Doubtful("word shape."), "What is left?")
+    assert asked.query == query
+    assert 0.5 < asked.confidence < 1
+
+
+def test_the_shipped_classifier_names_what_is_asked():
+    odds = QueryOdds("how deeply does the plum sit inside the gel now")
+    assert next(odds.likeliest()) == "amount depth mm."
+    assert odds.of("amount depth mm.") > -1
+    assert odds.of("amount depth mm; word shape.") == odds.of("word shape; word texture.") < -2
+    assert odds.of("amount depth miles.") == -math.inf

@@ -10,9 +10,11 @@ from cltp.llm.constrained.grammar import match
 from policies.llm.spoken import SpokenContact
 from tacgrasp.__main__ import main
 from tacgrasp.base.errors import UsageError
+from tacgrasp.lessons import understanding
 from tacgrasp.lessons.dialogue.question_file import question_row
 from tacgrasp.training import question_evaluation
 from tacgrasp.training.question_evaluation import FeltContact, evaluate_questions, felt_contacts
+from tests.fakes.query_odds import NoOdds
 from tests.fakes.question_scenes import FIRM, HELD
 
 CONTACTS = [FeltContact(points=np.zeros((1024, 3), np.float32), scene=s) for s in (HELD, FIRM)]
@@ -33,8 +35,10 @@ class Parrot:
         assert touch.shape == (0, self.width)
         assert match(grammar, self.query)[1]
         self.prompts.append(prompt)
-        slot = SimpleNamespace(probability=0.5)
-        return SimpleNamespace(text=self.query, ended=True, slots={"first": slot})
+        return SimpleNamespace(text=self.query, ended=True)
+
+    def log_likelihoods(self, prompt, replies):
+        return [0.0 for _ in replies]
 
 
 def row(question, kind, truth="", before=""):
@@ -52,6 +56,7 @@ ROWS = [
 @pytest.fixture(autouse=True)
 def _few_own_questions(monkeypatch):
     monkeypatch.setattr(question_evaluation, "GRAMMAR_QUESTIONS", 3)
+    monkeypatch.setattr(understanding, "QueryOdds", NoOdds)
     spoken = SpokenContact(HELD.state, {}, {})
     monkeypatch.setattr(question_evaluation, "spoken_contact", lambda talker, felt: spoken)
 
@@ -87,7 +92,7 @@ def test_confidence_is_scored_on_what_the_model_answers(monkeypatch):
     results, answers = evaluated(Parrot("amount force N."))
     assert {each.text for each in answers} == {"0.83 N."}
     assert results["figures"]["model"] == results["figures"]["model alone"]
-    assert results["confidence"] == {"calibration_error": 0.5, "auroc": None}  # all wrong
+    assert results["confidence"] == {"calibration_error": 1.0, "auroc": None}  # all wrong
 
 
 def test_a_right_query_gives_right_answers():

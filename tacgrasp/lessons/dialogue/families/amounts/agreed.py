@@ -319,7 +319,7 @@ _MASS_WORDING = AmountWording(
     counted=(
         Asked(
             "how many {unit}",
-            "(does|did) {thing} (weigh|have)|is {thing}|heavy is {thing}|has {thing}|"
+            "(does|did) {thing} (weigh|have)|is {thing}|is the thing we are (lifting|holding)|heavy is {thing}|has {thing}|"
             "are we (lifting|about to lift)|is the (weight|mass)|does the scale say",
             "{thing} (weighs|is|has)|the (weight|mass) is",
         ),

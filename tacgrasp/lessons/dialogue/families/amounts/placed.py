@@ -20,7 +20,10 @@ _MIDDLE = (
     "(the (center|center|middle|middle|midpoint|center point|mid point|exact center) [of {gel}]|"
     "(center|dead center))"
 )
-_TARGET = "({thing}|{touch}|the (contact|touch) point|the (contact|imprint|touch))"
+_TARGET = (
+    "({thing}|{touch}|the (contact|touch) point|the (contact|imprint|touch)|"
+    "the (center|middle) of the (contact|touch|imprint))"
+)
 
 
 def _coordinate(axis: str, way: str, sides: str) -> AmountWording:
@@ -36,7 +39,8 @@ def _coordinate(axis: str, way: str, sides: str) -> AmountWording:
         "(left|down|tip side) (counts as|is|being|as) (minus|negative)|signed|with [its] sign)"
     )
     along = (
-        f"(along {axis}|along the {axis} axis|in {axis}|in the {axis} direction|on the {axis} axis)"
+        f"(along {axis}|along the {axis} axis|in {axis}|in the {axis} direction|on the {axis} axis|"
+        f"along the {way} axis)"
     )
     name = (
         f"{axis} [coordinate|position|value|location|reading|component|place]|{way} (position|"
@@ -107,7 +111,7 @@ _X = _coordinate(
     "x",
     "(horizontal|left-right|sideways)",
     "left or right|to the left or right|to the left or to the right|left or right of the middle|"
-    "left or right of center|to the left|to the right|over to the left or right|left|right",
+    "left or right of center|right of (the middle|the center|center)|left of (the middle|the center|center)|to the left|to the right|over to the left or right|left|right",
 )
 _Y = _coordinate(
     "y",

@@ -303,6 +303,9 @@ _FORCE_BARE = (
     "force of the grip|pressure on (the pad|the gel)|squeezing force|force between the fingers"
 )
 _FORCE_OTHERS = (
+    "how much (is|are) (the (finger|fingers|gripper|robot|hand)|it|we|you) (pressing|squeezing|gripping|"
+    "pushing) [on {thing}]|what (is|was) (the grip|the force|the squeeze|our grip|the load) at|"
+    "what does (the [tactile] sensor|the pad|the gel|the gripper) say about [the] force|"
     "{thing} is (held|gripped|squeezed|pressed) how (hard|tightly|firmly|strongly)|"
     "how (tight|firm|vigorous|brutal|gentle|intense) is the (squeeze|pinch|clamping|hug|embrace)|"
     "what does the (force gauge|dynamometer|load cell|force meter) (say|show|read)|"
@@ -399,7 +402,8 @@ _AREA_ASKED = (
 _AREA_SHARE = (
     Asked(
         "(what (share|fraction|percentage|proportion)|how (large|big) a (part|share)) of {gel}",
-        f"is {_COVERED} [by {{thing}}]|(does|did) {{thing}} {_SPREAD}|are we touching",
+        f"is {_COVERED} [by {{thing}}]|(does|did) {{thing}} {_SPREAD}|are we touching|"
+        "(sees|feels|has|makes) contact",
         f"is {_COVERED} [by {{thing}}]|{{thing}} {_SPREADS}|we are touching",
     ),
     Asked(

@@ -65,7 +65,7 @@ UNIT_WORDS: Mapping[str, str] = {
 
 GEL = (
     "(the (gel|gel|pad|pad|skin|sensor|finger|fingertip|rubber|membrane|elastomer|sensor skin|"
-    "gel pad|tip|cushion|soft (skin|layer|pad|surface)|silicone|sensing (skin|face|layer|surface)|"
+    "gel pad|tip|cushion|soft (skin|layer|pad|surface)|silicone|sensing (skin|face|layer|surface|area)|"
     "tactile (pad|skin|sensor)|touch (pad|sensor)|jelly|polymer|pad surface|finger pad)|your (gel|skin|pad|finger|fingertip))"
 )
 """What is pressed, as people call it."""

@@ -310,7 +310,7 @@ _AREA_DENIED = (
     "({whether}|[{believe}]) the area is (anything but|other than) {area} [{tag}]"
 )
 _PLACE_PREDICATE = (
-    "{position}|{position}|{position}|(located|placed|sitting|touching) (in|at) {spot}"
+    "{position}|{position}|{position}|(located|placed|sitting|touching) ((in|at) {spot}|{position})"
 )
 _PLACE_DIRECT = (
     "does {thing} (lie|sit|rest|touch|press|land|push) {position}|"

@@ -236,7 +236,7 @@ def _place(word: str) -> str:
     else:
         row, _, column = word.partition("-")
         up = {"top": "up", "bottom": "down"}[row]
-        said += f"|at the {row} on the {column}|{up} on the {column}|{row} {column}"
+        said += f"|at the {row} on the {column}|{up} on the {column}|{row} {column}|near the {row} {column}"
     return f"({said})"
 
 

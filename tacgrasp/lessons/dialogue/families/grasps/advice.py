@@ -41,7 +41,7 @@ _CHANGES = (
     "{deed} or {deed}|{deed}, {deed} or {deed}) [first|now]|{deed} or {deed} [first]|"
     "is it better to {deed} or to {deed}|(should|shall|do) (we|I) ("
     "squeeze more, squeeze less or move|increase or decrease the force or move)|"
-    "tighten, loosen or (shift|move|lift)|harder, softer or move|move, squeeze or lift|"
+    "tighten, loosen or (shift|move|lift)|(lift|go|lift it) [now] [,] or (wait|hold on|not yet|stay)|harder, softer or move|move, squeeze or lift|"
     "do we (tighten, loosen or move|grip harder or softer or move)|"
     "(should|shall|must|do) (we|I|the gripper) (move|go|shift|slide) [it] (left or right|right or left|up or down|down or up|"
     "left , right , up or down|to the left or [to] the right)|"

@@ -173,7 +173,7 @@ def _wanted(bindings: Bindings, _: Numbers) -> Several:
 _LIMIT = (
     "((the|the|our|its) [hard|force|agreed|allowed|permitted|safety|set|contract] limit "
     "[of the contract|on the force|for {body}|we agreed on|that was set|for the force]|"
-    "the (ceiling|cap) [on the force|of the contract]|what is (allowed|permitted)|"
+    "the (ceiling|cap) [on the force|of the contract]|the safe (force|limit)|what is (allowed|permitted)|"
     "what (the contract (allows|permits)|we are allowed|we may use)|"
     "the (force|pressure) (that is (allowed|permitted)|we are allowed)|"
     "the (allowed|permitted|maximum allowed|largest allowed|highest permitted) (force|pressure))"
@@ -218,13 +218,13 @@ _HARDER = {
         f"({_HOLD} [{{thing}}] (harder|more firmly|tighter|more tightly|more|more strongly|a bit "
         "harder|with more force|more)|tighten [up|the grip|the hold]|increase the (force|grip|"
         "pressure|squeeze)|(use|apply|add) [some] more (force|pressure)|firm up the (grip|hold)|crank it up|dial it up|clamp down|bear down|bite harder|"
-        "step up the (force|grip)|beef up the grip|raise the (force|pressure)|snug it up)"
+        "step up the (force|grip)|close (the gripper|the fingers|the jaws) [a bit|a little] (more|further)|close [it] (more|further)|beef up the grip|raise the (force|pressure)|snug it up)"
     ),
     "above": (
         f"({_HOLD} [{{thing}}] (softer|more softly|more gently|less|less hard|looser|more loosely|"
         "more lightly|a bit softer|with less force)|loosen [up|the grip|the hold]|(decrease|reduce|"
         "lower) the (force|grip|pressure|squeeze)|(use|apply) less (force|pressure)|ease off|chill out a bit|dial it (down|back)|tone it down|go easier|release a bit|"
-        "let up [a bit]|back off [a bit]|relax the (grip|hold)|ease the grip|slacken the grip)"
+        "let up [a bit]|back off [a bit]|open (the gripper|the fingers|the jaws) (a bit|a little|slightly)|relax the (grip|hold)|ease the grip|slacken the grip)"
     ),
 }
 _FIRMER = {
@@ -446,7 +446,7 @@ FAMILIES: tuple[QuestionFamily, ...] = (
             "{firmer}|"
             "{firmer} is (needed|required|necessary)|{thing} needs {firmer}|"
             "it (is|would be) (necessary|better) to {harder}",
-            "{firmer}|{firmer} or not|{harder} , yes or no|{firmer} (needed|required)|time to "
+            "{firmer}|{firmer} or not|{harder} or not|{harder} , yes or no|{firmer} (needed|required)|time to "
             "{harder}|need {firmer}|"
             "need to {harder}",
         ),
@@ -455,8 +455,8 @@ FAMILIES: tuple[QuestionFamily, ...] = (
             "harder": _HARDER,
             "firmer": _FIRMER,
             "held_so": {
-                "below": f"{_HELD} (more firmly|more tightly|harder|tighter|more strongly)",
-                "above": f"{_HELD} (less firmly|less tightly|more gently|more loosely|softer)",
+                "below": f"({_HELD} (more firmly|more tightly|harder|tighter|more strongly)|tightened)",
+                "above": f"({_HELD} (less firmly|less tightly|more gently|more loosely|softer)|loosened)",
             },
         },
     ),

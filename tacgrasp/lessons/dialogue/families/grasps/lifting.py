@@ -72,7 +72,7 @@ _MIGHT = "(will|would|could|does|might)"
 
 _FATE_SLOTS = (
     *("fall", "unfall", "keep", "carry", "bear", "keeps", "firm", "danger", "sure", "enough"),
-    *("losing", "heavy", "more", "harder", "without"),
+    *("losing", "heavy", "more", "harder", "without", "hold"),
 )
 """Slots that name what becomes of the object."""
 
@@ -231,7 +231,7 @@ FAMILIES: tuple[QuestionFamily, ...] = (
             "| is the (grip|force|hold) {firm} {thing} {weight} {tail} [, {length}] ? "
             f"| is the (grip|force|hold|squeeze) {{firm}} ([a load of] {_MASS}|a {{load}}) "
             f"{{tail}} ? "
-            f"| is (this|that|the) (grip|force|hold) {{enough}} ({_MASS}|a {{load}}) {{tail}} [, "
+            f"| is (this|that|it|(this|that|the) (grip|force|hold)) {{enough}} ({_MASS}|a {{load}}) {{tail}} [, "
             f"{{length}}] ? "
             f"| is (there|there a|there any) {{danger}} {{weight}} {{tail}} ? "
             f"| is there (a|any|some) {{danger}} {{tail}} ? | {{danger}} {{weight}} {{tail}} [?] "
@@ -253,6 +253,9 @@ FAMILIES: tuple[QuestionFamily, ...] = (
             f"| (good|strong enough|enough|enough grip|enough force) for {_MASS} {{keeps}} "
             f"{{tail}} ? "
             f"| {_MASS} , (will|would|can|does) (it|{{thing}}) {{fall}} {{tail}} ? "
+            f"| (can|could) (we|I|it|this|the robot|the grip|this grip) {{hold}} (a|an) {{*objects}} (of|weighing) {_MASS} {{tail}} ? "
+            f"| (can|could|may) (we|I) {{bear}} {_MASS} (with (that|this|it)|like (that|this)) {{tail}} ? "
+            f"| (will|would|could|might) (something|a thing|an object|a load) (weighing|of) {_MASS} {{fall}} {{tail}} ? "
             f"| {_MASS} , (can|could|will) (we|it|the grip) {{bear}} (it|that) {{tail}} ? "
             f"| (suppose|say|imagine|assume|if) {{thing}} (weighs|weighed|is|has) {_MASS} , "
             "(will|would|does) it {fall} {tail} ? "
@@ -265,6 +268,7 @@ FAMILIES: tuple[QuestionFamily, ...] = (
             "keep": {"stays": _CARRY, "slips": "(lose|drop|let go of)"},
             "carry": {"stays": _CARRY},
             "bear": {"stays": _CARRY},
+            "hold": {"stays": "(hold|carry|keep|bear|lift)"},
             "keeps": {"stays": ""},
             "firm": {
                 "stays": "(strong|firm|tight|good) enough for",

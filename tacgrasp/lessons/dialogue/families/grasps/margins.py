@@ -81,7 +81,8 @@ _LACKING = AmountWording(
     terse="{unit} (missing|short|lacking|too few)|[how many] {unit} up to the band",
     others=(
         f"what do we lack in force|how much too (weak|light|loose|low) is {_FORCE}|"
-        f"how much too (weakly|lightly|loosely|little) do we {_HOLD}"
+        f"how much too (weakly|lightly|loosely|little) do we {_HOLD}|how much more [force] (until|till|before) "
+        f"(we are|it is) in {_BAND}|how much more [force] to (reach|get into|be in) {_BAND}"
     ),
 )
 

@@ -68,7 +68,7 @@ FAMILIES: tuple[QuestionFamily, ...] = (
         "longest|highest|oldest) (river|mountain|building|bridge|lake|city|country) in the world|"
         "how (tall|high|old) is the (eiffel tower|mount everest|great wall|statue of liberty)|"
         "how many (planets|stars|continents|oceans|countries|bones|days in a year|moons) are there|"
-        "why is the (sky blue|grass green|sea salty|sun hot|night dark)|when did the (war|"
+        "why is the (sky blue|grass green|sea salty|sun hot|night dark)|(when|[in] which year|[in] what year) did the (war|"
         "revolution|dinosaurs|middle ages) (start|end|die out)|what is the speed of (light|sound)|"
         "is {*cities} (bigger|older|nicer) than {*cities}|do {*animals} (fly|swim|sleep|bite|lay eggs)|"
         "can (a|an) {*animals} (fly|swim|talk|climb)|what is (a|an) {*animals}|{*topics}|"
@@ -221,8 +221,8 @@ FAMILIES: tuple[QuestionFamily, ...] = (
         "what does this (error|code|script|program) (mean|do)",
         "what {#n} (plus|minus|times) {#m} is|how to (install|write|debug|compile|update) (a|an|the|my) "
         "{*computing}|what (a|an) {*computing} is|how many miles are {#n} kilometres",
-        "write (me|us|) a (program|script|function|class|query|loop|app|macro) (for|about|that sorts) "
-        "({*topics}|{*objects})|solve {#n} x plus {#m} equals zero|count (to|from|backwards from) {#n}|"
+        "write (me|us|) (a|some|an) [{*computing}] (program|script|function|class|query|loop|app|macro|code) (for|about|that sorts|to sort) "
+        "({*topics}|{*objects}|a list|numbers|files)|solve [{#k}] x (plus|minus|+) {#n} (equals|is|=) (zero|{#m})|count (to|from|backwards from) {#n}|"
         "convert {#n} (miles|feet|pounds|gallons|celsius|inches) to (kilometres|metres|kilos|litres|"
         "fahrenheit)|(add|multiply|subtract|divide) {#n} and {#m}|prove that {#n} is prime|"
         "(debug|fix|review|compile|run|test|rewrite) my ({*computing}|code)|generate a (password|"

@@ -1,0 +1,93 @@
+"""``tacgrasp train queries``: what it draws, that it learns, and that it goes on after a stop."""
+
+import json
+
+import pytest
+import torch
+
+from cltp.checkpoints.stored_classifier import load_classifier
+from tacgrasp.__main__ import main
+from tacgrasp.lessons.dialogue.query import read_query
+from tacgrasp.training import query_classifier
+from tacgrasp.training.query_classifier import QueryClassifierRequest, draw_block, train
+
+
+@pytest.fixture(autouse=True)
+def _small(monkeypatch):
+    monkeypatch.setattr(query_classifier, "BLOCK", 400)
+    monkeypatch.setattr(query_classifier, "BATCH", 32)
+    monkeypatch.setattr(query_classifier, "HELD_OUT", 50)
+
+    class Here:
+        """Maps in this process: the constants of this test are no other one's."""
+
+        map = staticmethod(map)
+
+        def __enter__(self):
+            return self
+
+        def __exit__(self, *_):
+            return None
+
+    monkeypatch.setattr(query_classifier, "worker_pool", Here)
+
+
+def test_blocks_are_deterministic_and_hold_queries():
+    lines = draw_block((0, 3))
+    assert lines == draw_block((0, 3)) != draw_block((0, 4))
+    for line in lines[:100]:
+        words, name = line.split("\t")
+        assert words
+        assert name == "several" or read_query(name, (1.0, 2.0, 3.0, 4.0)) is not None
+
+
+def test_it_learns_and_goes_on_where_it_stopped(tmp_path):
+    from rich.console import Console
+
+    def request(name, steps):
+        return QueryClassifierRequest(out=tmp_path / name, questions=1200, steps=steps)
+
+    train(request("whole", 40), Console(quiet=True))
+    whole = load_classifier(tmp_path / "whole")
+    stage = query_classifier.Stage
+
+    class StoppedError(Exception):
+        pass
+
+    class Stopping(stage):
+        def train(self, losses):
+            def some(step):
+                if step == 25:
+                    self.save()
+                    raise StoppedError
+                return losses(step)
+
+            super().train(some)
+
+    query_classifier.Stage = Stopping
+    try:
+        with pytest.raises(StoppedError):
+            train(request("stopped", 40), Console(quiet=True))
+    finally:
+        query_classifier.Stage = stage
+    train(request("stopped", 40), Console(quiet=True))
+    stopped = load_classifier(tmp_path / "stopped")
+    for name, value in whole.state_dict().items():
+        assert torch.equal(value, stopped.state_dict()[name]), name
+    curve = (tmp_path / "whole" / ".training" / "queries.csv").read_text().splitlines()
+    assert len(curve) == 41
+    losses = [float(row.split(",")[2]) for row in curve[1:]]
+    assert sum(losses[-5:]) < 0.8 * sum(losses[:5])
+
+
+def test_the_command_refuses_nothing_to_learn(tmp_path, capsys):
+    assert main(["train", "queries", "--out", str(tmp_path), "--steps", "0"]) == 2
+    assert "--steps" in capsys.readouterr().err
+
+
+def test_the_command_writes_a_classifier(tmp_path, capsys):
+    argv = ["train", "queries", "--out", str(tmp_path / "q"), "--questions", "1200", "--steps", "2"]
+    assert main(argv) == 0
+    assert "are read rightly" in capsys.readouterr().out
+    config = json.loads((tmp_path / "q" / "config.json").read_text())
+    assert len(config["classes"]) > 50
