@@ -4,7 +4,7 @@
     shape ring          depth >= deep       force within        left
     slips 30 g          stays given
     twice force over    half force within   force 1.2 +- 0.1 N
-    half depth > 0.2 mm
+    half depth > 0.2 mm        force about 1.2 N
 
 Not here: wordings (``tacgrasp.lessons.dialogue.families``), queries
 (``tacgrasp.lessons.dialogue.query``).
@@ -76,6 +76,10 @@ MEASURED: Mapping[str, Mapping[str, str]] = {
 
 SIGNS = (">", "<", ">=", "<=")
 
+ABOUT = 0.1
+"""Distance from a number, as a fraction of it, up to which a quantity is about that number. Our
+choice: as far as a said number may be off."""
+
 ORDERED: Mapping[str, Sequence[str]] = {"depth": CLASSES["depth"], "area": CLASSES["area"]}
 """Words that have an order: 'depth >= deep'."""
 
@@ -97,6 +101,7 @@ _COMPARED = re.compile(rf"({_TIMES}\w+) (>=|<=|>|<) (\S+) (\S+)")
 _RANKED = re.compile(r"(depth|area) (>=|<=|>|<) ([a-z ]+)")
 _BETWEEN = re.compile(rf"({_TIMES}\w+) (\S+) - (\S+) (\S+)")
 _NEAR = re.compile(rf"({_TIMES}\w+) (\S+) \+- (\S+) (\S+)")
+_ABOUT = re.compile(r"(depth|force) about (\S+) (\S+)")
 _FATE = re.compile(rf"({'|'.join(FATES)}) (?:{GIVEN}|(\S+) (\S+))")
 
 
@@ -137,6 +142,12 @@ def check_of(test: str, *, denied: bool = False, length: Length = Length.FREE) -
         condition = (
             f"abs({expression} - {_plain(middle)}{factor}) <= {_plain(away.lstrip('-'))}{factor}"
         )
+        shows = name
+    elif about := _ABOUT.fullmatch(test):
+        name, middle, unit = about.groups()
+        expression, factor = _measured(name, unit)
+        away = number_text(ABOUT * float(middle))
+        condition = f"abs({expression} - {_plain(middle)}{factor}) <= {away}{factor}"
         shows = name
     else:
         raise ValueError(f"there is no condition {test!r}")

@@ -6,6 +6,7 @@
     check not force within.             denied
     amount depth mm; word shape.        several at once
     check force #1 +- #2 N.             a number with its tolerance
+    check force about #1 N.             a number without one
     amount depth - #1 mm.               how much more than a number
     amount half force N.                a multiple; 'twice', 'thrice'
     check twice force over.             a multiple judged as the force is
@@ -281,6 +282,8 @@ def _numbered(num_numbers: int) -> Iterator[str]:
         for unit in units:
             for one in references:
                 yield from (f"{quantity} {sign} {one} {unit}" for sign in SIGNS)
+                if quantity in NEARED:
+                    yield f"{quantity} about {one} {unit}"
             for low, high in pairwise(references):
                 yield f"{quantity} {low} - {high} {unit}"
                 if quantity in NEARED:

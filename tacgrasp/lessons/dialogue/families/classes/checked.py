@@ -199,7 +199,7 @@ _SHAPE_DIRECT = (
     f"{{shape}}|"
     "(could|might|can) (it|this|that) be {shape}|(is|was) that {shape} (I feel|we feel|we hit)|"
     "{shape} [{tag}]|{shape} , or not|is {thing} {shape} or not|{bare} [{tag}]|{bare}|"
-    "{shaped} [{tag}]|is it {bare} shaped|is the (contact|object) {bare}-shaped|"
+    "{shaped} [{tag}]|is it {shaped} where it touches|is it {bare} shaped|is the (contact|object) {bare}-shaped|"
     "are (these|they|those) {many}|do (you|we) feel {many}|are there {many} [on the pad]|any {many}"
 )
 _SHAPE_SAID = (

@@ -1,4 +1,7 @@
-"""Families that compare depth or force with a number and its tolerance: '1.2 N give or take 0.1'."""
+"""Families that compare depth or force with a number and its tolerance: '1.2 N give or take 0.1'.
+
+'About 1.2 N' names none (``tacgrasp.lessons.dialogue.conditions.ABOUT``).
+"""
 
 from __future__ import annotations
 
@@ -8,7 +11,11 @@ import numpy as np
 
 from tacgrasp.lessons.dialogue.conditions import check_of, number_text
 from tacgrasp.lessons.dialogue.expression import Expression
-from tacgrasp.lessons.dialogue.families.comparisons.thresholds import SCALES, UNITS
+from tacgrasp.lessons.dialogue.families.comparisons.thresholds import (
+    SCALES,
+    UNITS,
+    one_threshold,
+)
 from tacgrasp.lessons.dialogue.meaning import FACTS, Check
 from tacgrasp.lessons.dialogue.patterns.family import (
     Bindings,
@@ -62,7 +69,57 @@ def _near_family(name: str, quantity: str, nouns: str, *units: str) -> QuestionF
     )
 
 
+_ABOUT = (
+    "((about|around|roughly|approximately|some|near|close to|nearly|more or less|pretty much|circa|"
+    "in the region of|in the neighbourhood of|something like) {#t} {unit}|"
+    "{#t} {unit} (or thereabouts|or so|more or less|roughly|approximately|give or take)|"
+    "(about|around|roughly|approximately|near|close to) {half})"
+)
+
+
+def _about_family(name: str, quantity: str, nouns: str, half: str, *units: str) -> QuestionFamily:
+    """A family that asks whether a quantity is about a number, or about half (a unit) of the first."""
+
+    def build(bindings: Bindings, numbers: Numbers) -> Check:
+        middle, unit = numbers.get("t", 0.5), bindings.get("unit", units[0])
+        test = f"{quantity} about {number_text(middle)} {unit}"
+        return check_of(test, length=length_of(bindings))
+
+    draw = one_threshold(FACTS[quantity])
+    return QuestionFamily(
+        name=name,
+        pattern=(
+            f"{{lead}} ( (is|was|isn't) ({nouns}) [now|still|really] {_ABOUT} "
+            f"| {{whether}} ({nouns}) is {_ABOUT} | [{{believe}}] ({nouns}) is {_ABOUT} [{{tag}}] "
+            f"| ({nouns}) {_ABOUT} [, yes or no|, right|, true or false|, correct] "
+            f"| (does|did) ({nouns}) (come to|amount to|measure) {_ABOUT} "
+            f"| are we [now|still] at {_ABOUT} ) [now|right now|at the moment|please] [, {{length}}]"
+        ),
+        build=build,
+        slots={"unit": {unit: UNITS[unit] for unit in units}, "half": half},
+        choose=lambda scene, bindings, rng: (
+            draw(scene, bindings, rng) if "unit" in bindings else {}
+        ),
+    )
+
+
 FAMILIES: tuple[QuestionFamily, ...] = (
+    _about_family(
+        "force_about",
+        "force",
+        "it|that|the [contact|grip|normal|present] force|our (grip|force)|the (grip|squeeze|load)|"
+        "the force on {thing}",
+        "half a (newton|N)",
+        *("N", "mN", "g"),
+    ),
+    _about_family(
+        "depth_about",
+        "depth",
+        "it|that|the [contact|press|present] depth|the (indentation|dent|penetration)|"
+        "the depth of {touch}",
+        "half a (millimetre|mm)",
+        *("mm", "µm"),
+    ),
     _near_family(
         "force_near",
         "force",

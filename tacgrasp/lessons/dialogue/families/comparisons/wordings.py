@@ -245,7 +245,7 @@ def thing_pattern(direct: str, statements: str, bare: str) -> str:
     return (
         f"{{lead}} ( ({direct}) [{{or_not}}] | ({direct}) [{{or_not}}] "
         f"| {{claim}} ({statements}) [{{or_not}}|{{tag}}] "
-        f"| [(would you say|do you think|do you reckon|is that|would that be|so|maybe|please check :|"
+        f"| [(would you say|do you think|do you reckon|is that|isn't (that|it|this)|would that be|so|maybe|please check :|"
         f"true or false :|yes or no :|I say|let us say|yes or no ,|quick check :|what , )] ({bare}) [{{or_not}}|{{tag}}] ) {{tail}} [, {{length}}]"
     )
 
