@@ -27,7 +27,17 @@ from policies.llm.text import DOUBTFUL_RATIO
 from tacgrasp.lessons.dialogue.answers import Answer, answer
 from tacgrasp.lessons.dialogue.expression import Expression
 from tacgrasp.lessons.dialogue.families.catalogue import understand
-from tacgrasp.lessons.dialogue.meaning import Amount, AnswerKind, Meaning, names_of, truth_of
+from tacgrasp.lessons.dialogue.meaning import (
+    Amount,
+    AnswerKind,
+    Check,
+    Length,
+    Meaning,
+    Several,
+    Which,
+    names_of,
+    truth_of,
+)
 from tacgrasp.lessons.dialogue.query import (
     asked_text,
     query_grammar,
@@ -79,6 +89,12 @@ _STANDS_ALONE = re.compile(
 )
 """A question with subject and verb: 'Is it round?' follows nothing, 'Is it?' may."""
 
+MOST_JOINED = 3
+"""Most wordings that are asked together, as in a query."""
+
+_JOINT = re.compile(r"\s*[?;.]\s+(?:and\s+)?|\s*,\s+(?:and\s+)?|\s+(?:and|plus)\s+", re.I)
+"""What joins two questions."""
+
 NOT_UNDERSTOOD = "I don't understand the question."
 
 
@@ -126,8 +142,14 @@ def understood(writer: QueryWriter, question: str, before: str = "") -> ReadQues
 
 
 def understood_by_grammar(question: str, before: str = "") -> ReadQuestion | None:
-    """What a question means by the grammar; None where it has not the wording."""
+    """What a question means by the grammar; None where it has not the wording.
+
+    Two or three of its wordings that are joined by a comma, 'and' or a question mark are asked
+    together.
+    """
     meaning = understand(question, before=before)
+    if meaning is None and not before and (parts := _joined(question)):
+        meaning = Several(parts=tuple(dict.fromkeys(parts)))
     if meaning is None:
         return None
     numbers = asked_text(question, before).numbers
@@ -137,6 +159,28 @@ def understood_by_grammar(question: str, before: str = "") -> ReadQuestion | Non
         return None
     read = read_query(query, numbers)
     return None if read is None else ReadQuestion(query, read, 1.0)
+
+
+def _joined(question: str, most: int = MOST_JOINED) -> tuple[Amount | Check | Which, ...]:
+    """The meanings of at most so many joined wordings of the grammar; none where it lacks one."""
+    for joint in _JOINT.finditer(question):
+        first = _joinable(understand(question[: joint.start()]))
+        if not first:
+            continue
+        rest = question[joint.end() :]
+        others = _joinable(understand(rest)) or (_joined(rest, most - 1) if most > 2 else ())
+        if others and len(others) < most:
+            return first + others
+    return ()
+
+
+def _joinable(meaning: Meaning | None) -> tuple[Amount | Check | Which, ...]:
+    """The parts of what can be asked together with others; none of what can't be."""
+    if isinstance(meaning, Several):
+        return meaning.parts
+    if isinstance(meaning, Amount | Check | Which) and meaning.length is Length.FREE:
+        return (meaning,)
+    return ()
 
 
 def understood_by_model(

@@ -2,7 +2,8 @@
 
 import pytest
 
-from tacgrasp.lessons.understanding import understood, understood_in_turn
+from tacgrasp.lessons.understanding import answered, understood, understood_in_turn
+from tests.fakes.question_scenes import HELD
 
 
 class Refusing:
@@ -54,3 +55,55 @@ def test_a_follow_up_of_the_grammar_is_read_behind_its_question():
 def test_another_wording_is_put_to_the_model():
     with pytest.raises(AssertionError, match="the model was asked 'does it fancy a waltz'"):
         understood(Refusing(), "Does it fancy a waltz?")
+
+
+@pytest.mark.parametrize(
+    ("question", "query"),
+    [
+        (
+            "Is the force about 0.8 N and is it round?",
+            "check force about #1 N; check shape sphere.",
+        ),
+        ("Is it rough, and how deep is it?", "check texture rough; amount depth mm."),
+        ("Is it deep? Is it round?", "check depth deep; check shape sphere."),
+        ("Is the contact small and shallow?", "check area small; check depth slight."),
+        ("Is it above 0.5 N and below 1 N?", "check force > #1 N; check force < #2 N."),
+        (
+            "How deep is it, how hard is it pressed and what shape is it?",
+            "amount depth mm; amount force N; word shape.",
+        ),
+        ("How deep is it, and how deep is it?", "amount depth mm."),
+        ("Is it deep, please?", "check depth deep."),
+    ],
+)
+def test_joined_wordings_are_asked_together(question, query):
+    assert understood(Refusing(), question).query == query
+
+
+@pytest.mark.parametrize(
+    "question",
+    [
+        "Is it red and round?",  # the first is not felt
+        "Is it soft and ripe?",
+        "How deep is it? And why?",
+        "Will it slip, and how deep is it, and how hard, and is it round?",  # four
+        "and",
+        ", ",
+    ],
+)
+def test_what_is_joined_with_something_else_is_left_to_the_model(question):
+    with pytest.raises(AssertionError, match="the model was asked"):
+        understood(Refusing(), question)
+
+
+@pytest.mark.parametrize(
+    ("question", "force_n", "text"),
+    [
+        ("Is the force about 0.8 N?", 0.83, "Yes, the force is 0.83 N."),
+        ("Is it 0.7 N or thereabouts?", 0.83, "No, the force is 0.83 N."),
+        ("Are we at about half a newton?", 0.83, "No, the force is 0.83 N."),
+    ],
+)
+def test_about_a_number_is_within_a_tenth_of_it(question, force_n, text):
+    assert HELD.state.force_n == force_n
+    assert answered(understood(Refusing(), question), HELD).answer.text == text
