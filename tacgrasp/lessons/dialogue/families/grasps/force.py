@@ -357,7 +357,7 @@ FAMILIES: tuple[QuestionFamily, ...] = (
     QuestionFamily(
         name="force_limit",
         pattern=asked_or_stated(
-            f"(is|is|isn't) ({_LIMITED}) {{side}}|(are|are|aren't) (we|you|the fingers) {{side}}|"
+            f"(is|is|isn't) ({_LIMITED}) {{side}}|(are|are|aren't) (we|you|the fingers) {{side}}|am I {{side}}|"
             f"(do|did|do) (we|you|the fingers) {{keep}} {_LIMIT}|does ({_LIMITED}) {{keep}} "
             f"{_LIMIT}|"
             "(is|has) the [force|hard] limit [been] {been}|"
