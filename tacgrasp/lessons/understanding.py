@@ -92,6 +92,10 @@ _STANDS_ALONE = re.compile(
 MOST_JOINED = 3
 """Most wordings that are asked together, as in a query."""
 
+MOST_JOINTS = 8
+"""Most places where a question may be divided. Our choice: three questions with commas of their own
+have fewer, and a pasted page would take seconds."""
+
 _JOINT = re.compile(r"\s*[?;.]\s+(?:and\s+)?|\s*,\s+(?:and\s+)?|\s+(?:and|plus)\s+", re.I)
 """What joins two questions."""
 
@@ -163,13 +167,16 @@ def understood_by_grammar(question: str, before: str = "") -> ReadQuestion | Non
 
 def _joined(question: str, most: int = MOST_JOINED) -> tuple[Amount | Check | Which, ...]:
     """The meanings of at most so many joined wordings of the grammar; none where it lacks one."""
-    for joint in _JOINT.finditer(question):
+    joints = list(_JOINT.finditer(question))
+    if len(joints) > MOST_JOINTS:
+        return ()
+    for joint in joints:
         first = _joinable(understand(question[: joint.start()]))
         if not first:
             continue
-        rest = question[joint.end() :]
-        others = _joinable(understand(rest)) or (_joined(rest, most - 1) if most > 2 else ())
-        if others and len(others) < most:
+        rest, left = question[joint.end() :], most - len(first)
+        others = _joinable(understand(rest)) or (_joined(rest, left) if left > 1 else ())
+        if 0 < len(others) <= left:
             return first + others
     return ()
 
@@ -194,20 +201,18 @@ def understood_by_model(
         return None
     odds = QueryOdds(asked.words)
     queries = dict.fromkeys((reply.text, *islice(odds.likeliest(), NAMED)))
-    meanings = {query: read_query(query, asked.numbers) for query in queries}
-    possible = [query for query, meaning in meanings.items() if meaning is not None]
+    read = [(query, read_query(query, asked.numbers)) for query in queries]
+    possible = [(query, meaning) for query, meaning in read if meaning is not None]
     if not possible:
         return None
-    written = writer.log_likelihoods(asked.words, possible)
+    written = writer.log_likelihoods(asked.words, [query for query, _ in possible])
     logs = [
         (max(log, LEAST_LOG) + max(odds.of(query), LEAST_LOG)) / 2
-        for query, log in zip(possible, written, strict=True)
+        for (query, _), log in zip(possible, written, strict=True)
     ]
     weights = np.exp(np.array(logs) - max(logs))
     best = int(weights.argmax())
-    meaning = meanings[possible[best]]
-    assert meaning is not None
-    return ReadQuestion(possible[best], meaning, float(weights[best] / weights.sum()))
+    return ReadQuestion(*possible[best], confidence=float(weights[best] / weights.sum()))
 
 
 def understood_in_turn(writer: QueryWriter, question: str, before: str) -> ReadQuestion | None:

@@ -24,7 +24,7 @@ from torch.nn import functional
 
 from cltp.atomic_write import write_atomically
 from cltp.checkpoints.stored_classifier import save_classifier
-from cltp.texts.text_classifier import ClassifierConfig, TextClassifier
+from cltp.texts.text_classifier import ClassifierConfig, TextClassifier, WordBatch
 from cltp.train.prefetch import prefetched
 from cltp.train.progress import Bar
 from cltp.train.recipes import Schedule
@@ -158,7 +158,7 @@ class _Noise:
         return words
 
 
-def _batch(model: TextClassifier, noise: _Noise, seed: int, step: int) -> tuple[object, Tensor]:
+def _batch(model: TextClassifier, noise: _Noise, seed: int, step: int) -> tuple[WordBatch, Tensor]:
     rng = np.random.default_rng([seed, step, 59])
     chosen = [noise.known[int(i)] for i in rng.integers(len(noise.known), size=BATCH)]
     texts = [noise.around(words, rng)[: model.config.longest] for words, _ in chosen]

@@ -87,6 +87,8 @@ def test_joined_wordings_are_asked_together(question, query):
         "Is it soft and ripe?",
         "How deep is it? And why?",
         "Will it slip, and how deep is it, and how hard, and is it round?",  # four
+        "Tell me x and y, and is it round and is it deep?",  # four, two of them in one wording
+        "How deep is it, " * 12,
         "and",
         ", ",
     ],
