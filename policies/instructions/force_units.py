@@ -16,6 +16,9 @@ _GRIP = (
 _OF_FORCE = rf"[ -]*(?:of )?{_GRIP}(?:force|grip|pressure|squeeze|clamp)"
 _KILO = r"(?:kilo(?:gram(?:me)?)?s?|kgs?)"
 _GRAM = r"(?:gram(?:me)?s?|gr?)"
+_POUND, _OUNCE = r"(?:pounds?|lbs?)", r"(?:ounces?|oz)"
+POUND_N, OUNCE_N = 453.59237 * GRAM_N, 28.349523 * GRAM_N
+"""Weights of the avoirdupois pound and ounce [N]."""
 UNITS: tuple[tuple[str, float], ...] = (
     (r"(?:kilo-?\s?newtons?|kn)", 1000.0),
     (r"(?:mill?i-?\s?n[ew]+t[a-z]{0,3}ns?|mn)", 1e-3),
@@ -23,10 +26,10 @@ UNITS: tuple[tuple[str, float], ...] = (
     (r"(?:n[ew]+t[a-z]{0,3}ns?|netwons?|newtos?|n)", 1.0),
     (rf"(?:{_KILO}{_OF_FORCE}|kgf|{_KILO}[ -]f(?:orce)?|kilo(?:gram)?-?force|kiloponds?)", 1000 * GRAM_N),
     (rf"(?:{_GRAM}{_OF_FORCE}|{_GRAM}[ -]weight|gf|{_GRAM}[ -]f(?:orce)?|gram-?force|ponds?)", GRAM_N),
-    (rf"(?:(?:pounds?|lbs?){_OF_FORCE}|lbf)", 453.59237 * GRAM_N),
-    (rf"(?:(?:ounces?|oz){_OF_FORCE}|ozf)", 28.349523 * GRAM_N),
+    (rf"(?:{_POUND}{_OF_FORCE}|lbf)", POUND_N),
+    (rf"(?:{_OUNCE}{_OF_FORCE}|ozf)", OUNCE_N),
 )  # fmt: skip
-_MASSES = ((_KILO, 1000 * GRAM_N), (_GRAM, GRAM_N))
+_MASSES = ((_KILO, 1000 * GRAM_N), (_GRAM, GRAM_N), (_POUND, POUND_N), (_OUNCE, OUNCE_N))
 """Masses stand for a force only after a word such as 'with' or 'at most'."""
 UNIT = "|".join(unit for unit, _ in UNITS)
 LOOSE = "|".join(unit for unit, _ in _MASSES)

@@ -62,7 +62,7 @@ _PRONOUN = re.compile(
 )
 """'One' that is no number: 'this one'."""
 
-_UNIT = r"(?=[ -]*(?:of )?(?:an? |1 )?(?:single |full |whole )?(?:milli|kilo|newt|n\b|kn\b|mn\b|kg|gram|gf))"
+_UNIT = r"(?=[ -]*(?:of )?(?:an? |1 )?(?:single |full |whole )?(?:milli|kilo|newt|n\b|kn\b|mn\b|kg|gram|gf|pounds?\b|lbs?\b|lbf\b|ounces?\b|oz\b|ozf\b))"
 _OF_A = r"(?:[ -]+(?:of )?(?:an?|1)(?= ))?"
 
 
@@ -104,7 +104,7 @@ def in_digits(text: str) -> str:
     )
     text = re.sub(r"\ba couple of\b(?= newt)|\ba couple(?= newt)", "2", text)
     return re.sub(
-        r"\b(?:an?|single)(?: single| full| whole| mere)? (?=newton\b|kilo(?:gram|newton)?(?:-force| of)|kgf\b)",
+        r"\b(?:an?|single)(?: single| full| whole| mere)? (?=newton\b|(?:kilo(?:gram|newton)?|pound|ounce)(?:-force| of| force)|kgf\b|lbf\b|ozf\b)",
         "1 ",
         text,
     )

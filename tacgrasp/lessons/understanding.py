@@ -38,6 +38,7 @@ from tacgrasp.lessons.dialogue.meaning import (
     names_of,
     truth_of,
 )
+from tacgrasp.lessons.dialogue.plainer import plainer
 from tacgrasp.lessons.dialogue.query import (
     asked_text,
     query_grammar,
@@ -152,6 +153,8 @@ def understood_by_grammar(question: str, before: str = "") -> ReadQuestion | Non
     together.
     """
     meaning = understand(question, before=before)
+    if meaning is None and (plain := plainer(question)) != question:
+        return understood_by_grammar(plain, before)
     if meaning is None and not before and (parts := _joined(question)):
         meaning = Several(parts=tuple(dict.fromkeys(parts)))
     if meaning is None:
@@ -194,7 +197,7 @@ def understood_by_model(
     writer: QueryWriter, question: str, before: str = ""
 ) -> ReadQuestion | None:
     """What a question means to model and classifier; None where they come to no query."""
-    asked = asked_text(question, before)
+    asked = asked_text(plainer(question), before)
     grammar = query_grammar(len(asked.numbers))
     reply = writer.reply_to(torch.zeros(0, writer.width), asked.words, grammar=grammar)
     if not reply.ended:

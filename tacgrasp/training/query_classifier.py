@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -37,6 +37,10 @@ from tacgrasp.lessons.slips import FIXED
 
 BATCH, RATE, DECAY = 192, 1e-3, 0.01
 """Questions of a step, learning rate at its peak, weight decay. Our choice."""
+
+POOL = 16
+"""Steps whose questions are drawn together and sorted by their length, so that little is padded:
+twice as fast (measured on one core)."""
 
 LEAST_DRAWN = 3
 """Times that a query must have been drawn to be a class: what is rarer is left to the model."""
@@ -95,9 +99,8 @@ def train(request: QueryClassifierRequest, console: Console) -> float:
         )
         identity = {"questions": request.questions, "learned": len(learned), "classes": classes}
         stage = Stage("queries", run, model, schedule, identity)
-        noise = _Noise(learned)
         steps = range(stage.step, request.steps)
-        batches = prefetched(_batch(model, noise, request.seed, step) for step in steps)
+        batches = prefetched(_batches(model, _Noise(learned), request.seed, steps))
 
         def losses(_: int) -> Mapping[str, Tensor]:
             batch, meant = next(batches)
@@ -158,13 +161,30 @@ class _Noise:
         return words
 
 
-def _batch(model: TextClassifier, noise: _Noise, seed: int, step: int) -> tuple[WordBatch, Tensor]:
-    rng = np.random.default_rng([seed, step, 59])
-    chosen = [noise.known[int(i)] for i in rng.integers(len(noise.known), size=BATCH)]
-    texts = [noise.around(words, rng)[: model.config.longest] for words, _ in chosen]
-    seen = [word in FIXED for words in texts for word in words]
-    hidden = torch.from_numpy(rng.random(len(seen)) < HIDDEN) & ~torch.tensor(seen)
-    return model.batch(texts, hidden), torch.tensor([number for _, number in chosen])
+def _batches(
+    model: TextClassifier, noise: _Noise, seed: int, steps: range
+) -> Iterator[tuple[WordBatch, Tensor]]:
+    """Batches of these steps; ``POOL`` steps share questions, each has those of one length."""
+    number, pool = -1, []
+    for step in steps:
+        if step // POOL != number:
+            number = step // POOL
+            pool = _pool(noise, np.random.default_rng([seed, number, 59]), model.config.longest)
+        texts, meant = zip(*pool[step % POOL], strict=True)
+        seen = [word in FIXED for words in texts for word in words]
+        rng = np.random.default_rng([seed, step, 60])
+        hidden = torch.from_numpy(rng.random(len(seen)) < HIDDEN) & ~torch.tensor(seen)
+        yield model.batch(texts, hidden), torch.tensor(meant)
+
+
+def _pool(
+    noise: _Noise, rng: np.random.Generator, longest: int
+) -> list[list[tuple[list[str], int]]]:
+    """Questions of ``POOL`` steps, disturbed: batches of like lengths, in any order."""
+    chosen = (noise.known[int(i)] for i in rng.integers(len(noise.known), size=POOL * BATCH))
+    drawn = [(noise.around(words, rng)[:longest], number) for words, number in chosen]
+    drawn.sort(key=lambda each: len(each[0]))
+    return [drawn[int(at) * BATCH :][:BATCH] for at in rng.permutation(POOL)]
 
 
 def _right(model: TextClassifier, known: Sequence[tuple[list[str], int]]) -> float:

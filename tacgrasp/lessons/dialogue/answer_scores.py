@@ -76,12 +76,18 @@ def score_answer(text: str, row: QuestionRow, scene: AskedScene) -> AnswerScore:
 
 
 def dimension_of(truth: Expression) -> str:
-    """What a number measures, by the first name of its truth; '' for a word."""
-    for name in truth.names:
-        for ending, dimension in _DIMENSIONS.items():
-            if name.endswith(ending):
-                return dimension
-    return ""
+    """What a number measures, by the first name of its truth; '' for a word.
+
+    One name over another of its dimension is a fraction, in percent.
+    """
+    dimensions = [next(filter(None, map(_dimension_of_name, names)), "") for names in truth.divided]
+    if len(set(dimensions)) == 1 and dimensions[0]:
+        return "fraction"
+    return next(filter(None, map(_dimension_of_name, truth.names)), "")
+
+
+def _dimension_of_name(name: str) -> str:
+    return next((found for ending, found in _DIMENSIONS.items() if name.endswith(ending)), "")
 
 
 def _is_close(row: QuestionRow, truths: Sequence[TruthValue]) -> bool:

@@ -22,6 +22,7 @@ from tacgrasp.lessons.dialogue.scene import HOLDING_N_PER_G
 
 IN_BAND = "band_low_n <= force_n <= band_high_n"
 
+_BAND_MIDDLE = QUANTITIES["band_middle"].truth
 _FORCE_STATES: Mapping[str, tuple[str, str]] = {
     "force within": (IN_BAND, "force_band"),
     "force below": ("force_n < band_low_n", "force_band"),
@@ -42,6 +43,8 @@ STATES: Mapping[str, tuple[str, str]] = {
     "wider": ("abs(x_mm) > abs(y_mm)", "x"),
     "higher": ("abs(y_mm) > abs(x_mm)", "y"),
     **_FORCE_STATES,
+    "force upper": (f"force_n > {_BAND_MIDDLE}", "band_middle"),
+    "force lower": (f"force_n < {_BAND_MIDDLE}", "band_middle"),
     **{
         f"{name} {state}": (condition.replace("force_n", f"{factor:g} * force_n"), "force")
         for name, factor in TIMES.items()
@@ -63,7 +66,8 @@ _MEASURED: Mapping[str, Mapping[str, str]] = {
     "limit": {"N": "", "mN": " / 1000", "cN": " / 100", "g": " * 0.00981"},
     "band_low": {"N": ""},
     "band_high": {"N": ""},
-    "headroom": {"N": ""},
+    "headroom": {"N": "", "mN": " / 1000"},
+    "used": {"%": ""},
     "holds": {"g": "", "kg": " * 1000"},
     "free_area": {"%": ""},
     "spare": {"g": ""},

@@ -64,6 +64,11 @@ class Expression:
     Args:
         text: The expression.
 
+    Attributes:
+        text: The expression.
+        names: Names of a scene that it has, in their order.
+        divided: Names above and below the bar of the first quotient of names; empty without one.
+
     Raises:
         ValueError: It is too long, or has something that is no part of an expression.
     """
@@ -79,7 +84,20 @@ class Expression:
         nodes = [node for node in ast.walk(self._tree) if isinstance(node, ast.Name)]
         nodes.sort(key=lambda node: node.col_offset)
         self.names = tuple(dict.fromkeys(node.id for node in nodes if node.id in NAMES))
+        self.divided = self._divided()
         self._check(self._tree)
+
+    def _divided(self) -> tuple[tuple[str, ...], ...]:
+        """Names above and below the bar, where names are divided by names; else nothing."""
+        for node in ast.walk(self._tree):
+            if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Div):
+                sides = tuple(
+                    tuple(n.id for n in ast.walk(side) if isinstance(n, ast.Name) and n.id in NAMES)
+                    for side in (node.left, node.right)
+                )
+                if all(sides):
+                    return sides
+        return ()
 
     def _check(self, node: ast.AST) -> None:
         """Refuse all that is not listed in the module's docstring."""

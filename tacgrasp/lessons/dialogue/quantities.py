@@ -115,6 +115,9 @@ _QUANTITIES: Mapping[str, Quantity] = {
     "band_high": Quantity(truth="band_high_n", unit="N", noun="most force wanted"),
     "limit": Quantity(truth="limit_n", unit="N", noun="limit"),
     "headroom": Quantity(truth="limit_n - force_n", unit="N", noun="force left to the limit"),
+    "used": Quantity(
+        truth="100 * force_n / limit_n", unit="%", noun="used part of the limit", decimals=0
+    ),
     "lacking": Quantity(
         truth="max(0, band_low_n - force_n)", unit="N", noun="force lacking to the band"
     ),

@@ -67,26 +67,27 @@ MOST_NUMBERS = 4
 
 AMOUNTS: Mapping[str, tuple[str, ...]] = {
     "depth": ("mm", "µm", "cm"),
-    "x": ("mm",),
-    "y": ("mm",),
-    "distance": ("mm",),
-    "offset_x": ("mm",),
-    "offset_y": ("mm",),
+    "x": ("mm", "µm"),
+    "y": ("mm", "µm"),
+    "distance": ("mm", "µm"),
+    "offset_x": ("mm", "µm"),
+    "offset_y": ("mm", "µm"),
     "area": ("%", "mm²"),
     "force": ("N", "mN", "g", "cN"),
     "band_low": ("N", "mN", "g", "cN"),
     "band_high": ("N", "mN", "g", "cN"),
     "limit": ("N", "mN", "g", "cN"),
     "headroom": ("N", "mN", "g", "cN"),
-    "lacking": ("N",),
-    "excess": ("N",),
+    "used": ("%",),
+    "lacking": ("N", "mN"),
+    "excess": ("N", "mN"),
     "mass": ("g", "kg"),
     "holds": ("g", "kg"),
     "free_area": ("%",),
-    "band_middle": ("N",),
-    "off_middle": ("N",),
-    "band_width": ("N",),
-    "band_to_limit": ("N",),
+    "band_middle": ("N", "mN"),
+    "off_middle": ("N", "mN"),
+    "band_width": ("N", "mN"),
+    "band_to_limit": ("N", "mN"),
     "spare": ("g",),
     **{f"{times} force": ("N", "mN", "g") for times in TIMES},
     **{f"{times} depth": ("mm", "µm") for times in TIMES},
@@ -129,7 +130,7 @@ _SHARES = {
 _SHARE = re.compile(
     rf"\b({'|'.join(sorted(_SHARES, key=len, reverse=True))})\b"
     r"(?= (?:of )?(?:the|this|our|its|my|that) (?:\w+ )?"
-    r"(?:pad|gel|sensor|surface|fingertip|skin)\b)"
+    r"(?:pad|gel|sensor|surface|fingertip|skin|limit|ceiling)\b)"
 )
 _SINGLE = re.compile(
     r"\b(?:an?|one)(?: (?:single|full|whole|entire|good))? (?=(?:milli|micro|kilo|mm\b))"

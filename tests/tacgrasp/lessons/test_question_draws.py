@@ -106,6 +106,7 @@ def test_spelling_leaves_the_plain_words_as_they_are():
 def test_a_question_whose_number_is_read_otherwise_is_drawn_anew(monkeypatch):
     texts = iter(["Is this one and three tenths of a newton?", "Is it three tenths of a newton?"])
     meaning = check_of("force >= 0.3 N")
+    question_draws.families_by_kind()  # draws wordings of its own, once
     monkeypatch.setattr(question_draws, "_wording", lambda *_: (next(texts), meaning))
     monkeypatch.setattr(question_draws, "TOGETHER", 0.0)
     exchange = query_exchange(np.random.default_rng(0))

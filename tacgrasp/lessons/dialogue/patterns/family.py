@@ -71,7 +71,12 @@ class QuestionFamily:
 def length_of(bindings: Bindings) -> Length:
     """How long an answer is asked to be."""
     named = (bindings[slot] for slot in ("verdict", "length", "first_length") if slot in bindings)
-    return Length(next(named, ""))
+    return Length(next(named, "").removeprefix("one "))
+
+
+def wants_one_word(bindings: Bindings) -> bool:
+    """Whether an answer of one word is asked for, not only a brief one."""
+    return "one word" in (bindings.get("length"), bindings.get("first_length"))
 
 
 def multiple_of(bindings: Bindings, quantity: str) -> str:

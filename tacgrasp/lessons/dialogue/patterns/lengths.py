@@ -4,15 +4,17 @@ from __future__ import annotations
 
 LENGTHS: dict[str, str | dict[str, str]] = {
     "length": {
-        "word": (
-            "(in one word|in a single word|one word only|just one word|as briefly as you can|"
-            "only the answer|keep it short|a short answer|nothing more|in a word|one word|"
+        "one word": (
+            "(in one word|in a single word|one word only|just one word|in a word|one word|"
             "one word please|one word will do|one word is enough|a single word|"
             "a single word will do|just a word|only one word|one-word answer|a one-word answer|"
             "a one word answer please|with one word|with a single word|"
             "(answer|reply|respond) (in|with) (one|a single|just one|only one) word|"
             "(answer|reply) in a word|say it in (one|a single) word|no more than one word|"
-            "not more than a word|use one word|use just one word|use a single word|"
+            "not more than a word|use one word|use just one word|use a single word)"
+        ),
+        "word": (
+            "(as briefly as you can|only the answer|keep it short|a short answer|nothing more|"
             "briefly|very briefly|in brief|in short|short answer|short answer please|"
             "a short answer please|a brief answer|a brief answer please|a quick answer|"
             "short and sweet|short please|keep it brief|be brief|be quick|be short|"
@@ -46,11 +48,14 @@ LENGTHS: dict[str, str | dict[str, str]] = {
         ),
     },
     "first_length": {
-        "word": (
+        "one word": (
             "((in (one|a single) word|with one word|one word|one word only|one-word answer|"
-            "a one-word answer|short answer|briefly|in brief|in short|very briefly|"
-            "(answer|reply|tell me) in (one|a single) word|(answer|reply) (briefly|with one word)|"
-            "just one word|as briefly as you can|keep it short|be brief) (,|:))"
+            "a one-word answer|just one word|in a word|"
+            "(answer|reply|tell me) in (one|a single) word|(answer|reply) with one word) (,|:))"
+        ),
+        "word": (
+            "((short answer|briefly|in brief|in short|very briefly|(answer|reply) briefly|"
+            "as briefly as you can|keep it short|be brief) (,|:))"
         ),
         "sentence": (
             "((in (a|one|a full|a whole|a complete|one full|a single) sentence|as a sentence|"
@@ -80,5 +85,6 @@ LENGTHS: dict[str, str | dict[str, str]] = {
         ),
     },
 }
-"""``first_length`` goes before a question, ``length`` and ``verdict`` after it, the latter
+"""Who asks for one word gets one where there is one; who asks briefly may get a number.
+``first_length`` goes before a question, ``length`` and ``verdict`` after it, the latter
 where yes or no is asked for."""

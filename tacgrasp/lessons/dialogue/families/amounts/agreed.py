@@ -16,7 +16,8 @@ from tacgrasp.lessons.dialogue.patterns.family import QuestionFamily, length_of
 from tacgrasp.lessons.dialogue.patterns.pattern import Slots
 
 _BAND = (
-    "(the [force|target|wanted|goal|grip force|target force] (band|band|range|window|corridor|"
+    "(the [force|target|wanted|goal|grip force|target force|requested|agreed|permitted|stipulated|"
+    "requested force|agreed force|permitted force] (band|band|range|window|corridor|"
     "interval)|the goal (band|range|window)|the job|the [force] contract|the (goal|target|specification|task)|our (goal|contract|band))"
 )
 _WANTED = (
@@ -56,8 +57,8 @@ _BAND_WORDING = AmountWording(
         ),
         Asked(
             "what",
-            "is the {end} (end|bound|edge|limit|boundary|border|value) of {band}",
-            "the {end} (end|bound|edge|limit|boundary|border|value) of {band} is",
+            "is the {end} (end|bound|edge|limit|boundary|border|value) of {band}|is the {tip} of {band}",
+            "the {end} (end|bound|edge|limit|boundary|border|value) of {band} is|the {tip} of {band} is",
         ),
         Asked("where", "does {band} {edge}", "{band} {edges}"),
         Asked("at (what|which) force", "does {band} {edge}", "{band} {edges}"),
@@ -108,6 +109,7 @@ _BAND_SLOTS: Slots = {
         "band_low": "(starts|begins|opens)",
         "band_high": "(ends|stops|finishes|closes)",
     },
+    "tip": {"band_low": "(bottom|start|floor|beginning)", "band_high": "(top|ceiling|end)"},
     "end": {
         "band_low": "(lower|low|bottom|lowest|minimum)",
         "band_high": "(upper|top|high|highest|maximum)",
@@ -124,7 +126,7 @@ _BAND_SLOTS: Slots = {
         "band_high": "(at most|at the most|at a maximum|as a maximum|at the very most)",
     },
 }
-_BOUNDS = ("bound", "edge", "edges", "end", "at_end", "needed", "needs")
+_BOUNDS = ("bound", "edge", "edges", "end", "at_end", "needed", "needs", "tip")
 """Slots that name an end of the force band."""
 
 _LIMIT = (
@@ -175,7 +177,7 @@ _LIMIT_WORDING = AmountWording(
         ),
     ),
     nouns=(
-        f"{_LIMIT}|{_LIMIT}|the (maximum|max|greatest|highest|largest|most) {_ALLOWED} force|"
+        f"the force (I|you|the fingers) must never (exceed|pass)|{_LIMIT}|{_LIMIT}|the (maximum|max|greatest|highest|largest|most) {_ALLOWED} force|"
         f"the (maximum|max|greatest|highest|largest) force (that is|we are|we may be) (allowed|"
         f"permitted)|the force (that must not be|we must not|we must never|never to be|"
         f"not to be) (exceeded|exceed)|the {_ALLOWED} (force|maximum|load)|the (ceiling|cap|"
@@ -240,6 +242,12 @@ _HEADROOM_WORDING = AmountWording(
             f"(we|I) (can|may|could) {_SQUEEZE} [{{thing}}] [{_BEFORE_LIMIT}]",
         ),
         Asked(
+            "(by (how much|what amount)|how far)",
+            "does the (limit|force limit|maximum [allowed|permitted] force|allowed maximum) (exceed|lie above|surpass) "
+            "(the [felt|present] force|the one (being applied|we apply|we use)|our (grip|force)|the grip)",
+            "the (limit|force limit|allowed maximum) (exceeds|lies above) (the [felt|present] force|our (grip|force))",
+        ),
+        Asked(
             "(how much [more]|by how much)",
             f"(can|may|could) the (force|grip force) (grow|rise|increase|go up) [{_BEFORE_LIMIT}]|"
             f"(is the force|are we) (below|under) the [force] limit",
@@ -257,7 +265,7 @@ _HEADROOM_WORDING = AmountWording(
     counted=(
         Asked(
             "how many [more] {unit}",
-            f"(are left|remain|do we have [left]|are there [left]|are we|is it) {_TO_LIMIT}|(can|"
+            f"(are left|are there left|remain) {_BEFORE_LIMIT}|(are left|remain|do we have [left]|are there [left]|are we|is it) {_TO_LIMIT}|(can|"
             f"may) (we|I) (add|put on|still add) [{_BEFORE_LIMIT}]",
             f"(are left|remain|we have|we are|there are) {_TO_LIMIT}|we (can|may) (add|"
             f"still add) [{_BEFORE_LIMIT}]",
@@ -281,7 +289,7 @@ _HEADROOM_WORDING = AmountWording(
         "{unit} left"
     ),
     others=(
-        f"how much breathing room (is left|is there|do we have)|how much wiggle room is left|"
+        f"how much {_ROOM} {_TO_LIMIT}|how much {_ROOM} (do we have|have we|is there|is left) below the limit|how much breathing room (is left|is there|do we have)|how much wiggle room is left|"
         f"how much force is (spare|to spare|in reserve)|what is our cushion below the limit|"
         f"how (close|near) to the (redline|ceiling|cap|threshold|cutoff) are we|"
         f"how far off the (ceiling|cap|redline|cutoff) are we|how much can we still (pile on|add)|"
@@ -354,7 +362,7 @@ _SLIPPING = (
     "falling|dropping it|losing it)|so that it (stays|does not slip|does not fall|holds)|"
     "and (still be held|still not slip|not fall)|until it slips)"
 )
-_WITH = "[with this (force|grip|squeeze)|at this force|at the present force|like this|as it is]"
+_WITH = "[for (sure|certain)|surely|safely|with this (force|grip|squeeze)|at this force|at the present force|like this|as it is]"
 _HOLDS_WORDING = AmountWording(
     asked=(
         Asked(

@@ -369,6 +369,71 @@ _BAND_TO_LIMIT = AmountWording(
     ),
 )
 
+_TOP = (
+    "(the [hard|force|grip|safety|allowed] limit|the (allowed maximum|permitted maximum|"
+    "allowed force|permitted force)|the (maximum|largest|highest) (allowed|permitted) force|our limit|"
+    "what (is allowed|the contract allows))"
+)
+_SPENT = "(used|used up|in use|spent|taken|exhausted|consumed|reached|already used|being used)"
+_USED_UP = (
+    "(is|are we|is already|is being|are|has been|have we|are we already) {spent}|"
+    "(do|did|does) (we|I|our grip|the grip|the force|this grip) (use|use up|need|take up|reach|make up|"
+    "amount to)|is (the [present|felt|current] force|our (force|grip)|this [force])|"
+    "are we (using|using up|at|running at)"
+)
+_USED = AmountWording(
+    asked=(
+        Asked(
+            f"(what|which|how many|how large a) (percent|percentage|per cent|share|fraction|proportion|part) of {_TOP}",
+            _USED_UP,
+            "(is|we have) {spent}|(we|I) (use|use up|reach)|the [present|felt] force is",
+        ),
+        Asked(
+            f"how much of {_TOP}",
+            _USED_UP,
+            "(is|we have) {spent}|(we|I) (use|use up)",
+        ),
+        Asked(
+            f"in percent of {_TOP} [, | ,|,] (how (large|high|strong)|what)",
+            "is (the [present|felt] force|our (force|grip))",
+            "the [present|felt] force is",
+        ),
+        Asked(
+            "how (high|large|big|far) in percent",
+            f"is (the [present|felt] force|our (force|grip)) (against|compared (to|with)|relative to|of) {_TOP}",
+            f"(the force|our grip) is (against|compared with|relative to) {_TOP}",
+        ),
+        Asked(
+            "(to what|to which) (extent|percentage|degree)",
+            f"(is|have we) {_TOP} {{spent}}",
+            f"{_TOP} is {{spent}}",
+        ),
+    ),
+    counted=(
+        Asked(
+            f"how many {{unit}} of {_TOP}",
+            _USED_UP,
+            "(is|are) {spent}|(we|I) (use|use up)",
+        ),
+    ),
+    nouns=(
+        f"the [used|present|felt] force (in percent|as a (percentage|share|fraction)|as a percent) of {_TOP}|the "
+        f"(percentage|share|fraction|proportion) of {_TOP} [that is|that we have|we have] {{spent}}|the force (relative "
+        f"to|divided by|over) {_TOP} [in percent|as a percentage]|the (use|usage|utilisation|utilization) of {_TOP}|the "
+        f"used (part|share|fraction|percentage) of {_TOP}"
+    ),
+    bare=(
+        f"(limit|force limit) (usage|utilisation|utilization|use)|(percent|percentage|share|fraction) of {_TOP} "
+        f"[that is] {{spent}}|force in percent of {_TOP}|force (as percent|as percentage|as share) of {_TOP}|"
+        f"used (percentage|share) of {_TOP}"
+    ),
+    terse=f"[how many] {{unit}} of {_TOP} [{{spent}}]",
+    others=(
+        f"how close [in percent] to {_TOP} are we [in percent|as a percentage]|(what|which) "
+        f"percentage are we at [of {_TOP}]|how (full|exhausted) is {_TOP} [in percent]"
+    ),
+)
+
 _GRIP = "(the grip|this grip|our grip|the hold|this hold|the gripper|we|the force|this squeeze)"
 _MASS = (
     "(the (mass|weight|load) [(I|we) (told|gave) you|you were told|that is given|I mentioned|I stated]|the "
@@ -450,9 +515,10 @@ FAMILIES: tuple[QuestionFamily, ...] = (
         "g",
     ),
     amount_family("free_area", "free_area", _FREE_AREA, "%"),
-    amount_family("band_middle", "band_middle", _BAND_MIDDLE, "N"),
-    amount_family("off_middle", "off_middle", _OFF_MIDDLE, "N"),
-    amount_family("band_width", "band_width", _BAND_WIDTH, "N"),
-    amount_family("band_to_limit", "band_to_limit", _BAND_TO_LIMIT, "N"),
+    amount_family("band_middle", "band_middle", _BAND_MIDDLE, "N", "mN"),
+    amount_family("off_middle", "off_middle", _OFF_MIDDLE, "N", "mN"),
+    amount_family("band_width", "band_width", _BAND_WIDTH, "N", "mN"),
+    amount_family("band_to_limit", "band_to_limit", _BAND_TO_LIMIT, "N", "mN"),
     amount_family("spare", "spare", _SPARE, "g"),
+    amount_family("used", "used", _USED, "%", slots={"spent": _SPENT}),
 )

@@ -35,9 +35,12 @@ def _coordinate(axis: str, way: str, sides: str) -> AmountWording:
         sides: Both directions along the axis, as adverbs.
     """
     plus = (
-        "((right|up|palm side) (counts as|is|being|as) (plus|positive)|positive to the right|"
-        "(left|down|tip side) (counts as|is|being|as) (minus|negative)|signed|with [its] sign)"
+        "((right|up|palm side|rightward|rightwards|to the right|towards the palm) (counts as|is|being|as|counted as|counting as|"
+        "taken as|counted) (plus|positive)|positive (to|towards) the right|right positive|"
+        "(left|down|tip side|leftward|to the left|towards the tip) (counts as|is|being|as|counted as|counting as|taken as) (minus|negative)|"
+        "a (negative|minus) number (meaning|means|for) left|minus for left)"
     )
+    signed = f"({plus}|signed|with [its] sign)"
     along = (
         f"(along {axis}|along the {axis} axis|in {axis}|in the {axis} direction|on the {axis} axis|"
         f"along the {way} axis)"
@@ -58,6 +61,24 @@ def _coordinate(axis: str, way: str, sides: str) -> AmountWording:
                 "{thing} (lies|sits|touches|presses|rests|landed)|we touched {thing}",
             ),
             Asked(f"how far {along}", f"is {_TARGET}|are we", f"{_TARGET} is|we are"),
+            Asked(
+                "what",
+                f"is the [signed] {way} (position|offset|shift|displacement|deviation|coordinate) [of {_TARGET}] "
+                f"[from {_MIDDLE}|relative to {_MIDDLE}] , {plus} [,]|is the signed {way} (offset|shift|displacement|"
+                f"deviation) [of {_TARGET}] [from {_MIDDLE}|relative to {_MIDDLE}]|{way} (shift|offset|displacement) "
+                f"does {_TARGET} have , {plus} [,]",
+                f"the [signed] {way} (position|offset|shift|displacement) [of {_TARGET}] is , {plus} [,]",
+            ),
+            Asked(
+                f"how far ({sides}|{along}|across the pad) , {plus} [,]",
+                f"is {_TARGET}|does {_TARGET} lie [from {_MIDDLE}]",
+                f"{_TARGET} (is|lies) [from {_MIDDLE}]",
+            ),
+            Asked(
+                "by how much",
+                f"is {_TARGET} (off|shifted|displaced) {along} , {plus} [,]",
+                f"{_TARGET} is (off|shifted|displaced) {along} , {plus} [,]",
+            ),
             Asked(
                 f"(at|on) (what|which) {axis} [coordinate|value|position]",
                 f"is {_TARGET}|does {{thing}} (lie|sit|touch|press|rest)|do you feel {{thing}}|"
@@ -89,14 +110,16 @@ def _coordinate(axis: str, way: str, sides: str) -> AmountWording:
             f"{axis}|{axis} [coordinate|position|value] of {_TARGET}|the {way} (position|"
             f"coordinate|location) [of {_TARGET}]|the (position|coordinate|"
             f"location) [of {_TARGET}] {along}|your {axis}|its {axis} "
-            "[coordinate|position|value]|the signed offset " + along
+            f"[coordinate|position|value]|the signed {way} (offset|shift|displacement|deviation|position) [of {_TARGET}]|"
+            f"the {way} (offset|shift|displacement|deviation|position) [of {_TARGET}] [relative to {_MIDDLE}|from {_MIDDLE}] , {plus} [,]|"
+            "the signed offset " + along
         ),
         bare=(
             f"{axis}|{axis}|{axis} coordinate|{axis} position|{axis} value|{axis} location|"
             f"{way} (position|coordinate)|contact {axis}|{axis} of (the|this) contact|"
             f"position (along|in) {axis}|{axis} of (it|{{thing}})|coordinate {axis}|{axis} pos|"
-            f"signed {way} (displacement|offset|position|shift|deviation) [, {plus}]|{way} (displacement|"
-            f"offset|shift) (with [its] sign|, {plus})|{axis} , {plus}"
+            f"signed {way} (displacement|offset|position|shift|deviation) [, {signed}]|{way} (displacement|"
+            f"offset|shift) (with [its] sign|, {signed})|{axis} , {signed}"
         ),
         terse=f"{{unit}} ({sides}|{along})|{axis} {{unit}}",
         others=(
@@ -109,7 +132,7 @@ def _coordinate(axis: str, way: str, sides: str) -> AmountWording:
 
 _X = _coordinate(
     "x",
-    "(horizontal|left-right|sideways)",
+    "(horizontal|left-right|sideways|lateral)",
     "left or right|to the left or right|to the left or to the right|left or right of the middle|"
     "left or right of center|right of (the middle|the center|center)|left of (the middle|the center|center)|to the left|to the right|over to the left or right|left|right",
 )
@@ -303,7 +326,10 @@ _DISTANCE = AmountWording(
         f"from) {_MIDDLE}|how (large|big|great) is the (centering error|eccentricity|(distance|"
         f"offset) (from|to) {_MIDDLE})|how far out is {_TARGET}|how far from being centered is "
         f"{_TARGET}|how far would (we|I) have to (move|shift) to (center {{thing}}|be centered)|"
-        f"how much distance is there to the (center|middle)|how far off center"
+        f"how much distance is there to the (center|middle)|how far off center|"
+        f"how long (is|would be) (a|the) [straight] line from {_MIDDLE} to ({{touch}}|the middle of the contact)|"
+        f"if (I|you|we|one) drew a [straight] line from {_MIDDLE} to ({{touch}}|the contact's (middle|center)|the (middle|center) of the contact) , "
+        f"how long would it be"
     ),
 )
 
@@ -321,11 +347,11 @@ _EXACTLY = "(in (mm|millimetres|coordinates|x and y|terms of x and y|numbers)|on
 _SHORT = "coordinates|xy|x y|x and y|x, y|xy position|xy coordinates|contact coordinates|both axes"
 
 FAMILIES: tuple[QuestionFamily, ...] = (
-    amount_family("position_x", "x", _X, "mm"),
-    amount_family("position_y", "y", _Y, "mm"),
-    amount_family("offset_x", "offset_x", _OFF_X, "mm"),
-    amount_family("offset_y", "offset_y", _OFF_Y, "mm"),
-    amount_family("distance", "distance", _DISTANCE, "mm"),
+    amount_family("position_x", "x", _X, "mm", "µm"),
+    amount_family("position_y", "y", _Y, "mm", "µm"),
+    amount_family("offset_x", "offset_x", _OFF_X, "mm", "µm"),
+    amount_family("offset_y", "offset_y", _OFF_Y, "mm", "µm"),
+    amount_family("distance", "distance", _DISTANCE, "mm", "µm"),
     QuestionFamily(
         name="coordinates",
         pattern=(

@@ -106,6 +106,11 @@ _DEPTH = AmountWording(
             "the depth (of {touch}|in {gel}|here)|our depth) (is|was|comes to|amounts to)",
         ),
         Asked(
+            "what",
+            "(does|would) (the dent|the imprint|the indentation) measure|would a depth gauge (show|say|read) [for this dent|here]",
+            "(the dent|the imprint) measures|a depth gauge would (show|say|read)",
+        ),
+        Asked(
             "how (large|big|great|high)",
             "is the ([contact|press] depth|indentation|penetration)",
             "the ([contact|press] depth|indentation|penetration) is",
@@ -122,13 +127,14 @@ _DEPTH = AmountWording(
             f"(deep|in|into {{gel}}) is ({{thing}}|{_DENT})|deep are we|is {{thing}} {_SUNK} in|"
             "does {thing} (sink|go|press|push|dig) (in|into {gel})|of (depth|indentation) [is it|"
             "are there|do you feel|do you have]|deep|are we in|does {gel} give way|"
-            "is {gel} pressed in",
+            "is {gel} pressed in|has (it|that) (sunk|gone) (in|into {gel})|did {thing} (sink|go|press) (in|into {gel})",
             f"(deep|in) {{thing}} is|{{thing}} (is {_SUNK} in|sinks in|goes in|presses in)|"
             "of (depth|indentation) there are|{gel} is pressed in|we are in",
         ),
         Asked(
             "(by|about|around|roughly|so) how many {unit}",
-            "is {thing} pressed in|is {gel} pressed in|does {thing} sink in|deep is it",
+            f"is {{gel}} {_SQUASHED} [here|at this contact|by {{thing}}]|did {{gel}} give|is {{thing}} pressed in|is {{gel}} pressed in|"
+            "does {thing} sink in|deep is it",
             "{thing} is pressed in|{gel} is pressed in|{thing} sinks in",
         ),
     ),
@@ -299,10 +305,13 @@ _FORCE_BARE = (
     "firmness|strength|force reading|force value|normal load|pad load|compression force|"
     "contact force|grip force|normal force|gripping force|clamping force|press force|"
     "pressing force|holding force|grip strength|squeeze force|pinch force|grasp force|"
+    "force normal to the pad|perpendicular force|load perpendicular to the pad|"
     "force on (the pad|the gel|it|the finger|{thing})|load on (the pad|the gel)|force level|"
     "force of the grip|pressure on (the pad|the gel)|squeezing force|force between the fingers"
 )
 _FORCE_OTHERS = (
+    "how hard is the finger (pressing|pushing|squeezing)|how hard am I (pressing|squeezing|gripping) [{thing}]|"
+    "what (force|load) reading do you get [from this touch|here]|how strong is the (press|push|squeeze|pinch)|"
     "how much (is|are) (the (finger|fingers|gripper|robot|hand)|it|we|you) (pressing|squeezing|gripping|"
     "pushing) [on {thing}]|what (is|was) (the grip|the force|the squeeze|our grip|the load) at|"
     "what does (the [tactile] sensor|the pad|the gel|the gripper) say about [the] force|"
@@ -431,7 +440,7 @@ _SHARE_NOUNS = (
 _AREA_BARE = (
     "area|contact area|contact area|extent|spread|surface area|patch size|size of the patch|"
     "imprint area|touching area|touch area|expanse|square area|area figure|contact extent|"
-    "contact patch|footprint|area of contact|contact size|"
+    "contact patch|contact patch area|patch area|footprint area|footprint|area of contact|contact size|"
     "touched area|covered area|size of the contact|contact surface|size of the contact patch|"
     "area of the contact|contact patch size|footprint size|imprint size|area touched|area covered|"
     "contact region size|surface in contact|area in contact"

@@ -9,8 +9,14 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from tacgrasp.lessons.dialogue.meaning import Amount
-from tacgrasp.lessons.dialogue.patterns.family import Bindings, Numbers, QuestionFamily, length_of
+from tacgrasp.lessons.dialogue.meaning import Amount, Which
+from tacgrasp.lessons.dialogue.patterns.family import (
+    Bindings,
+    Numbers,
+    QuestionFamily,
+    length_of,
+    wants_one_word,
+)
 from tacgrasp.lessons.dialogue.patterns.pattern import Slots
 
 
@@ -55,7 +61,7 @@ UNIT_WORDS: Mapping[str, str] = {
     "cm": "(cm|centimetres|centimeters|centimetre)",
     "N": "(newtons|newtons|N|newton)",
     "mN": "(millinewtons|mN|millinewton)",
-    "gf": "(grams|grams|grams of force|gram-force|grams force|grams of weight|gram force|g|gf)",
+    "gf": "(grams|grams|grams of force|gram-force|grams-force|grams force|grams of weight|gram force|g|gf)",
     "%": "(percent|percent|per cent|%|percentage points|pct)",
     "mm²": "(mm²|mm2|square millimetres|square mm|millimetres squared|mm squared|sq mm)",
     "g": "(grams|grams|g|gram|grammes)",
@@ -99,7 +105,7 @@ FIND = (
     "want to know|wondering)"
 )
 GET = (
-    "(get me|get|read me|read|fetch|print|display|output|return|measure|check|determine|quantify|"
+    "(express|quantify|quote|get me|get|read me|read me off|read off|read|fetch|print|display|output|return|measure|check|determine|quantify|"
     "please (give me|give us|measure|read|show|tell me|check|display|state|share|provide)|(can|"
     "could|would|will) you [please] (measure|read|check|show me|show|give me|give us|report|"
     "estimate|tell us|state|provide|share|print|determine|quantify|look up)|(can|could|may) (I|"
@@ -190,10 +196,16 @@ def number_pattern(wording: AmountWording, *, is_unit_needed: bool, extra_unit: 
     return f"{{lead}} {OPENING} ( {' | '.join(ways)} ) {CLOSING} {{tail}} [, {{length}}]"
 
 
-def amount_of(quantity: str, unit: str) -> Callable[[Bindings, Numbers], Amount]:
+WORDED = ("depth", "area")
+"""Quantities that have a word too: 'how deep is it, in one word' wants it."""
+
+
+def amount_of(quantity: str, unit: str) -> Callable[[Bindings, Numbers], Amount | Which]:
     """Meaning of a wording that asks for a quantity, in its own unit or else in this one."""
 
-    def build(bindings: Bindings, _: Numbers) -> Amount:
+    def build(bindings: Bindings, _: Numbers) -> Amount | Which:
+        if quantity in WORDED and "unit" not in bindings and wants_one_word(bindings):
+            return Which(name=quantity, length=length_of(bindings))
         unit_asked = bindings.get("unit", unit)
         return Amount(quantity=quantity, unit=unit_asked, length=length_of(bindings))
 
@@ -212,11 +224,15 @@ def amount_family(
     *units: str,
     is_unit_needed: bool = False,
     extra_unit: str = "",
+    slots: Slots | None = None,
 ) -> QuestionFamily:
     """A family that asks for a quantity; its first unit is meant where none is named."""
     return QuestionFamily(
         name=name,
         pattern=number_pattern(wording, is_unit_needed=is_unit_needed, extra_unit=extra_unit),
         build=amount_of(quantity, units[0]),
-        slots=amount_slots({symbol: UNIT_WORDS[symbol] for symbol in units}),
+        slots={
+            **amount_slots({symbol: UNIT_WORDS[symbol] for symbol in units}),
+            **(slots or {}),
+        },
     )

@@ -36,7 +36,9 @@ _SHAPE_DIRECT = (
     "what (silhouette|contour|outline|profile|figure|morphology|configuration) (is it|does {thing} have|do you "
     "feel|has {thing})|what does {thing} resemble [in shape|geometrically]|what is the (outline|contour|silhouette|"
     "profile|morphology) [of {thing}]|which (silhouette|contour|outline|profile) is it|"
-    "what form does {thing} take|"
+    "what form does {thing} take|(what|which) (shape|form|geometry) (am I|are my fingers) (holding|touching|gripping|squeezing|feeling|squishing)|"
+    "what (sort|kind) of body am I (holding|touching) [, geometrically [speaking]]|"
+    "(what|which) (geometric form|shape|geometry) does the (imprint|contact|print|dent) (suggest|have|show)|"
     "what shape is it|what is the shape|what shape is {thing}|what shape does {thing} have|"
     "what is the (shape|form|geometry) of {thing}|what shape do you feel|which shape is it|"
     "(what|which) shape (has {thing}|has {thing} got|did you feel|do you (sense|detect|read|make "
@@ -83,6 +85,8 @@ _SHAPE_NOUN = (
     "the shape (you feel|under the sensor|on the pad|of the contact|that touches the pad)"
 )
 _TEXTURE_DIRECT = (
+    "what is the feel [of (it|{body}|the surface)]|how (rough|smooth) is it where (we|you) touch it|what does it feel "
+    "like where (we|you) touch it|"
     "what (grain|weave|nap|topography|smoothness|tactility|coarseness|microstructure) (is it|has {thing}|do you feel)|"
     "what is the (grain|feel|touch|topography|smoothness|coarseness|surface character|surface quality) "
     "of {body}|how (coarse|bumpy|grainy|even|sleek|slick|uneven|polished|scratchy|ribbed|textured|patterned) "
@@ -131,6 +135,7 @@ _TEXTURE_NOUN = (
     "the (surface structure|fine structure|skin texture) [of {thing}]|relief"
 )
 _DEPTH_DIRECT = (
+    "without (quoting a number|any number|a figure|figures|any figure) , how deep is ({touch}|{thing}|the dent)|"
     "(in words|in plain words|as a word|not in numbers|without numbers|without a number|"
     "qualitatively|in a category) , how deep is ({touch}|{thing}|the dent)|"
     "how deep is ({touch}|{thing}|the dent) , (in words|in plain words|not in numbers|without "
@@ -168,6 +173,9 @@ _DEPTH_NOUN = (
     "the depth rating"
 )
 _AREA_DIRECT = (
+    "how (large|big|sizeable|extensive) is (it|the (contact|contact area|footprint|patch|contact patch|touch|imprint)) [,|:] (tiny , small|small) [,|or] medium [, |,] [or] (large|large or "
+    "very large)|(without (numbers|a number|quoting a number|any number|quoting any percentage|a percentage|figures)) , how (large|big|"
+    "sizeable|extensive) is the (contact|contact area|footprint|patch|touch)|"
     "(in words|in plain words|as a word|not in numbers|without numbers|without a number|"
     "qualitatively|in a category) , how (large|big) is the (contact|contact area|footprint|patch)|"
     "how (large|big) is the (contact|contact area|footprint|area) , (in words|in plain words|"
@@ -206,6 +214,9 @@ _AREA_NOUN = (
 )
 _SPOT = "(part|region|zone|area|section|cell|third)"
 _PLACE_DIRECT = (
+    "(no coordinates|no numbers|without coordinates|without numbers|in words) [please] [,|:] (what|which) (part|region|corner|area|side) of the "
+    "(pad|gel|sensor) is (it|{thing}|the contact) on|"
+    "whereabouts [on the (pad|gel|sensor)] (is {thing} touching|does {thing} touch|do we touch)|where on (the pad|the gel|you) is {thing} touching|"
     "whereabouts on the (gel|pad|sensor|skin) [is it|are we]|in (what|which) (quadrant|sector|neighbourhood|district) of "
     f"the {_PAD} (is {{thing}}|is the contact|are we)|which (quadrant|sector) [is it in|are we in]|"
     "where has {thing} (ended up|settled|come to rest|parked|wound up|planted itself)|"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from tacgrasp.lessons.dialogue.families.comparisons.felt import compare_family
+from tacgrasp.lessons.dialogue.families.comparisons.thresholds import BETWEEN
 from tacgrasp.lessons.dialogue.families.comparisons.wordings import (
     MORE,
     NOT_COMPARED,
@@ -168,6 +169,10 @@ _ROOM_DIRECT = (
     "away from|from) the [force|hard] limit|is the limit ({compared}) away|"
     "(can|may|could) we [still] (add|press|squeeze|grip) [with] {another} {amount} [more|harder] "
     "(before|without reaching|until) the limit|"
+    "(can|may|could) (we|I) [still] (add|put on|apply|use|go up by) {another} {amount} [more] [and [still] (not "
+    "(break|exceed|pass|reach|cross)|keep below|stay (below|under|within)|be (below|under|within)) the [force|hard] "
+    "limit]|is there {now} ({compared}) [of force] in (hand|reserve|store) [{to_limit}|until the limit is reached|"
+    "before the limit is reached]|"
     "is the (force|grip) ({compared}) (below|under) the [force|hard] limit|"
     "(do|does) ({compared}) remain {to_limit}|(is|are) ({compared}) {left} {to_limit}"
 )
@@ -180,6 +185,42 @@ _ROOM_STATEMENTS = (
 _ROOM_BARE = (
     "({compared}) {left} {to_limit}|({compared}) (below|under) the limit|({compared}) {to_limit}"
 )
+
+_OF_LIMIT = "of (the|our) [hard|force|grip|safety|allowed|whole] limit"
+_FIXED_SHARES = {
+    "50 %": f"(half|one half) ({_OF_LIMIT}|the [hard|force] limit)",
+    "25 %": f"(a quarter|one quarter) {_OF_LIMIT}",
+    "75 %": f"three quarters {_OF_LIMIT}",
+    "33.3 %": f"(a|one) third {_OF_LIMIT}",
+    "66.7 %": f"two thirds {_OF_LIMIT}",
+    "20 %": f"(a fifth|one fifth) {_OF_LIMIT}",
+    "10 %": f"(a tenth|one tenth) {_OF_LIMIT}",
+}
+_USED = (
+    "the [present|felt|current|grip|gripping] force|our (force|grip)|the (grip|squeeze|load|pressure)|what we "
+    "(use|apply|squeeze with)"
+)
+_USED_DIRECT = (
+    "(do|did|does) (we|you|I|the fingers|this grip) {now} {use_up} {share_of}|have (we|you|I|the fingers) {now} {used_up} "
+    "{share_of}|(is|are|was) {share_of} {now} {spent}|(are|is) (we|the gripper) {now} (using|using up|at|running at|"
+    "working at) {share_of}|has {share_of} {now} been {spent}|(has|have) (the force|we) {now} (gone|got) {share_of}"
+    "|is (the force|our grip|it) {now} {share_of}"
+)
+_USED_STATEMENTS = "(we|the fingers) {now} (use|use up|are using|are at) {share_of}|{share_of} is {now} {spent}|we have {used_up} {share_of}"
+_USED_BARE = "{share_of} {spent}|using {share_of}|at {share_of}"
+_USED_SLOTS: Slots = {
+    **slots_of(("%",), _FIXED_SHARES),
+    "unit": {"%": "(%|percent|per cent)"},
+    "between": {BETWEEN: f"(between|somewhere between) {{#t}} and {{#u}} {{unit}} {_OF_LIMIT}"},
+    "range": {BETWEEN: f"{{#t}} (to|-) {{#u}} {{unit}} {_OF_LIMIT}"},
+    "share": f"({{#t}} {{unit}} {_OF_LIMIT}|{{fixed}})",
+    "amount": f"({{#t}} {{unit}} {_OF_LIMIT}|{{fixed}})",
+    "united": f"({{#t}} {{unit}} {_OF_LIMIT}|{{fixed}})",
+    "share_of": "({more_than} {share}|{more_than} {share})",
+    "use_up": "(use|use up|take|need|spend|exhaust|consume|go beyond)",
+    "used_up": "(used|used up|taken|spent|exhausted|consumed|eaten up)",
+    "spent": "(used|used up|in use|spent|taken|exhausted|being used)",
+}
 
 _BAND_SLOTS: Slots = {
     **_FORCE_SLOTS,
@@ -253,6 +294,14 @@ FAMILIES: tuple[QuestionFamily, ...] = tuple(
             "N",
             thing_pattern(_ROOM_DIRECT, _ROOM_STATEMENTS, _ROOM_BARE),
             _BAND_SLOTS,
+        ),
+        ("used_above", "used", "%", measured_pattern(_USED), _USED_SLOTS),
+        (
+            "uses_up",
+            "used",
+            "%",
+            thing_pattern(_USED_DIRECT, _USED_STATEMENTS, _USED_BARE),
+            _USED_SLOTS,
         ),
     )
 )

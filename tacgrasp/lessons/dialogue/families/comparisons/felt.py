@@ -281,7 +281,7 @@ _NOT_DEEP_SLOTS: Slots = {
 
 _FORCE = (
     "the [contact|normal|grip|gripping|felt|present|measured|total|pressing|clamping] force|"
-    "the force|the load [on the (pad|sensor|finger)]|the squeeze|force|the (force|load|pressure) "
+    "the force|the load [on the (pad|sensor|finger)]|the (contact|pressing) load|the squeeze|force|the (force|load|pressure) "
     "(of|from|on) {body}|the grip|the force between the (fingers|jaws)|grip force|the push|"
     "the force reading|the pressing force|our grip|our force|the grip strength|contact force|"
     "the pressure|the pressure on {body}|its force|the force value|the press"

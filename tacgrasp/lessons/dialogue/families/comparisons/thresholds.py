@@ -139,6 +139,7 @@ SCALES: Mapping[str, Mapping[str, Scale]] = {
     "band_low_n": _FORCE,
     "band_high_n": _FORCE,
     "limit_n - force_n": {"N": Scale(size=1.0, step=0.05, low=0.05, high=3.0)},
+    "100 * force_n / limit_n": {"%": Scale(size=1.0, step=5, low=10, high=120)},
 }
 """Scales by expression and unit. mm² are those of a GelSight Mini, whose 1 % is 3.09 mm²."""
 

@@ -47,6 +47,7 @@ _TOUCHED = (
     "you say) "
     "(whether|if) ({some} (touches|is touching|is on|is resting on|presses on) {pad}|there is "
     "{some})|"
+    "is {some} (touching|pressing|pushing|making contact) [right now|now|here]|(have|did) we (actually|really|indeed) (got|get) hold of {some}|"
     "is {some} (brushing|grazing|bumping|nudging|tickling|rubbing) {pad}|"
     "any (sign|trace|hint|evidence|whiff) of (contact|touch|{some})|(did|do) we (bump into|run into|"
     "come across|hit upon) {some}|is {pad} (busy|engaged|occupied)|have the fingers landed [on "
@@ -115,6 +116,8 @@ _TOUCHED_SAID = (
     "(made|established)"
 )
 _EMPTY = (
+    "are the (fingers|jaws) (clutching|grasping|closing) (at|on) (thin air|nothing|air)|does the (reading|sensor) (show|say) "
+    "no contact [at all]|is the [gripper] finger (feeling|touching) nothing [at all]|"
     "has {thing} (vanished|disappeared|wandered off|rolled away|flown off|got lost)|"
     "is {pad} (idle|lonely|vacant|deserted|unoccupied)|is {hand} (vacant|unoccupied|bare)|"
     "did we come away (empty-handed|with nothing)|are we (grasping|clutching) at (nothing|straws|"
@@ -185,6 +188,7 @@ _CUT = (
     "guillotined|docked|curtailed|clipped|cropped|truncated|"
     "chopped off|"
     f"trimmed|cut short) [(by|at) {_RIM}]|"
+    "is {print} (cropped|truncated|cut) by the (border|edge|rim)|"
     "does {print} (overflow|straddle|transgress|cross|outgrow|overshoot) "
     f"{_RIM}|is {{print}} (dangling|peeking|jutting|poking|bulging|teetering) {_OVER}|"
     "does {print} (run|reach|go|extend|hang|stick out|spill|lap|protrude|stretch|poke out|jut out) "

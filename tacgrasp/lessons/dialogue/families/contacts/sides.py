@@ -50,7 +50,8 @@ _TIP_OR_PALM = (
     "(center|middle)|above the (center|middle) or below it|up or down [from the (center|middle)]|"
     "towards the fingertip or [towards] the palm|on the (palm|top) or on the (fingertip|"
     "bottom) side|"
-    "near the top or near the bottom|top or bottom)"
+    "near the top or near the bottom|top or bottom|proximal or distal [, (towards the palm or the tip)]|"
+    "proximally or distally|palmward or tipward)"
 )
 
 FAMILIES: tuple[QuestionFamily, ...] = (

@@ -39,6 +39,8 @@ _PAIR_QUESTIONS: Mapping[str, str] = {
     "(is {thing}|does {thing} have|do you feel)",
     "word texture; word shape": "(what|which) (texture and [what|which] shape|surface and form) "
     "(is {thing}|does {thing} have|do you feel)",
+    "choice side_x; choice side_y": "(left or right|right or left) [of the (center|middle)] [,] and ([towards] the palm or [towards] "
+    "the (tip|fingertip)|palm or (tip|fingertip)|up or down|above or below [the middle])",
     "amount x mm; amount y mm": "(where exactly is {thing} in x and [in] y|what are its "
     "coordinates|"
     "at (what|which) (x and y|coordinates) (is {thing}|does it touch)|what is it in x and [in] y|"

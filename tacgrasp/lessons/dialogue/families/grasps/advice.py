@@ -103,6 +103,7 @@ FAMILIES: tuple[QuestionFamily, ...] = (
             f"what (should|shall|must|should) {{doer}}|what (can|could|do) (I|we) do {_NEXT}|what "
             f"do (I|we) do|"
             f"what would (an expert|a human|an operator|a good robot) do [{_NEXT}]|"
+            f"what do (I|we) (have|need) to do [{_NEXT}]|now what|so now what|and now|what now then|"
             f"what ought (I|we) to do [{_NEXT}]|what (next|now|then)|"
             f"what is the (next|best|right|proper|following|wisest|smart|sensible|safest) {_STEP} "
             f"[{_NEXT}]|"
@@ -245,7 +246,8 @@ FAMILIES: tuple[QuestionFamily, ...] = (
         name="why_advice",
         pattern=(
             f"{{lead}} ( why (do|would|did) you (advise|suggest|recommend|choose|propose|want) "
-            f"(this|that) {_STEP} {{tail}} ? | why is (this|that) the (next|best|right) {_STEP} "
+            f"(this|that) [{_STEP}] {{tail}} ? | justify the {_STEP} [that] you (advise|propose|suggest|recommend) {{tail}} | "
+            f"(for|on) (what|which) (reason|grounds) (do|did) you (give|offer|make) [me|us] (this|that) {_ADVICE} {{tail}} ? | why is (this|that) the (next|best|right) {_STEP} "
             f"{{tail}} ? | what is the reason (for|behind|of) (your|this|the) {_ADVICE} {{tail}} ? "
             f"| on what grounds do you (advise|suggest|recommend) (this|that) [{_STEP}] {{tail}} ? "
             f"| what is (your|the) {_ADVICE} based on {{tail}} ? "
@@ -261,6 +263,8 @@ FAMILIES: tuple[QuestionFamily, ...] = (
             f"| [the] (reason|grounds|reasons) (for|behind) (your|this|the) {_ADVICE} {{tail}} [?] "
             f"| what (led|brought) you to (your|this|the) {_ADVICE} {{tail}} ? "
             f"| what makes you (advise|suggest|recommend) (this|that) [{_STEP}] {{tail}} ? "
+            f"| (why|how come|for what reason) (am I|are we|I am|we are|must I|must we|should I|should we) [supposed to|meant to|to] "
+            f"do (that|this|it) {{tail}} ? "
             f"| how did you (arrive at|come to|reach|decide on) (your|this|the) {_ADVICE} "
             f"{{tail}} ? )"
         ),

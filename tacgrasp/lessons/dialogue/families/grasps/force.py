@@ -25,9 +25,14 @@ DEPTH_QUESTIONS = ("How deep is it?", "What is the depth?", "How far is it press
 
 _BAND = (
     "(the band|the force band|the [wanted|target|agreed|desired|required|specified|given] range|"
+    "the (requested|agreed|stipulated) [force] (band|range|window)|the (band|range) [that] (we agreed on|I asked for|was asked for)|the window we agreed on|"
     "the goal|the contract|the agreed (band|window|force)|the (wanted|target|desired) (band|force)|"
     "the target|the window|the range (we agreed on|in the contract|we want|that was agreed)|"
     "what (we agreed on|we want|was agreed|is wanted|the contract (wants|asks for|says|demands)))"
+)
+_MIDDLE_OF_BAND = (
+    "(the (middle|center|midpoint|mid point|mean|halfway point) of (the|our) [force|wanted|target] (band|range|window)|"
+    "the band's (middle|center|midpoint)|mid-band)"
 )
 _SPEC = f"({_BAND}|{_BAND}|spec|specification|the specs|tolerance|the tolerance)"
 _FORCE = (
@@ -59,14 +64,14 @@ _STATES = {
     ),
     "below": (
         f"((below|under|short of|lower than|weaker than) {_SPEC}|{_DEGREE} too (light|weak|loose|"
-        "low|gentle|soft|slack|small|little|feeble|faint|flimsy|timid|puny|meagre|sloppy|slight|wimpy) [for {body}|for the contract]|"
+        "low|gentle|soft|slack|small|little|feeble|faint|flimsy|timid|puny|meagre|sloppy|slight|wimpy) [for {body}|for the (contract|band|goal|task)]|"
         "[a bit|a little|rather] (loose|slack|weak)|insufficient [for {body}]|"
         f"on the (loose|weak|light|low|soft) side|(less|lower|weaker|looser|lighter) than "
         f"{_AGREED})"
     ),
     "above": (
         f"((above|over|higher than|beyond|stronger than) {_SPEC}|{_DEGREE} too (firm|strong|tight|"
-        "high|hard|much|great|rough|forceful|harsh|heavy|brutal|aggressive|intense|stiff|violent|fierce) [for {body}|for the contract]|"
+        "high|hard|much|great|rough|forceful|harsh|heavy|brutal|aggressive|intense|stiff|violent|fierce) [for {body}|for the (contract|band|goal|task)]|"
         "[a bit|a little|rather] excessive|on the (tight|firm|strong|high|hard) side|"
         f"(more|higher|stronger|tighter|firmer|harder) than {_AGREED}|overdone)"
     ),
@@ -265,9 +270,14 @@ FAMILIES: tuple[QuestionFamily, ...] = (
             "(is|is|isn't) (it|this|that|this grip) {terse}|is {thing} {slack}|"
             f"is (there|that|this) {{portion}} {_FORCE} [on {{thing}}|for {{thing}}]|"
             f"(do we have|have we got|does {{thing}} get) {{portion}} {_FORCE} [on {{thing}}]|"
-            f"do we {{meet}} {_BAND}|did we (hit|meet|reach) {_BAND}|does ({_GRIP}) {{meet}} "
+            f"do we {{meet}} {_BAND}|did we meet {_BAND}|did we (hit|reach) the [force] (band|range|window)|does ({_GRIP}) {{meet}} "
             f"{_BAND}|"
-            f"(are we|does ({_GRIP}) (lie|stay|fall)) (within|in|inside) {_SPEC}",
+            f"(are we|does ({_GRIP}) (lie|stay|fall)) (within|in|inside) {_SPEC}|"
+            f"(is ({_GRIP})|are we|does ({_GRIP}) (lie|stay|fall)) {{between_ends}}|(does ({_GRIP})|do we) "
+            f"{{both_ends}}|(is|was) {{both_ends_kept}}|(does|do|would|will|did) ({_BAND}|the task|the job) (call for|ask for|want|"
+            f"require|need|demand) {{firmer}} [than (this|this one|now|that|we have)]|(do we|are we) {_HOLD} "
+            f"[{{thing}}] {{harder_than}}|are (we|you|the fingers) {_HOLDING} [{{thing}}] {{harder_than}}|am I "
+            f"{_HOLDING} [{{thing}}] {{harder_than}}",
             f"({_GRIP}) is {{state}}|(we are|you are|I am|the gripper is) {_HOLDING} [{{thing}}] "
             f"{{manner}}|{{thing}} is {_HELD} {{manner}}|(we|you|I|the fingers) {_HOLD} "
             f"[{{thing}}] "
@@ -281,7 +291,9 @@ FAMILIES: tuple[QuestionFamily, ...] = (
             f"{{terse}}|{{terse}}|{{rough}} [with {{thing}}]",
         ),
         build=conditional(
-            "state", "manner", "portion", "meet", "met", "terse", "rough", "slack", default="within"
+            *("state", "manner", "portion", "meet", "met", "terse", "rough", "slack", "firmer"),
+            *("harder_than", "between_ends", "both_ends", "both_ends_kept"),
+            default="within",
         ),
         slots={
             "state": _STATES,
@@ -308,6 +320,25 @@ FAMILIES: tuple[QuestionFamily, ...] = (
                 "enough": "(firm|strong|forceful) enough",
             },
             "slack": {"below": "[too] loose in the (grip|gripper|fingers|jaws|hand)"},
+            "firmer": {
+                "below": "(a (firmer|tighter|stronger|harder) (grip|hold|squeeze|grasp)|more force|more (grip|squeeze))",
+                "above": "(a (softer|looser|lighter|gentler|weaker) (grip|hold|squeeze|grasp)|less (force|grip))",
+            },
+            "harder_than": {
+                "above": "(harder|tighter|more firmly|more strongly|firmer) than the [force] (band|window|range) (allows|permits|wants|has it)",
+                "below": "(softer|more loosely|more weakly|looser|less) than the [force] (band|window|range) (allows|permits|wants|asks for)",
+            },
+            "between_ends": {
+                "within": "([somewhere|anywhere] between the (minimum|least|lower end|lower bound|lower limit) and the (maximum|most|upper end|upper bound|upper limit) "
+                "[force] [wanted|specified|asked for|of the band|for (this|the) grip|specified for this grip]|within both (bounds|ends|limits) [of the band])",
+            },
+            "both_ends": {
+                "within": "(respect|keep to|keep within|stay within|observe|satisfy|meet) (both (bounds|ends|limits)|both the (lower|upper) and the "
+                "(upper|lower) (bound|end|limit)|the (lower|upper) and the (upper|lower) (bound|end|limit)) [of (the|the contract's) [force] band|of the contract]",
+            },
+            "both_ends_kept": {
+                "within": "both (bounds|ends) of the [force] band (respected|kept|met|observed)"
+            },
         },
     ),
     QuestionFamily(
@@ -352,6 +383,32 @@ FAMILIES: tuple[QuestionFamily, ...] = (
             "outside": f"({_BAND}|tolerance|spec)",
             "missed": f"({_BAND}|the spec)",
             "out": "[, right]",
+        },
+    ),
+    QuestionFamily(
+        name="band_half",
+        pattern=asked_or_stated(
+            f"(is|is|isn't) ({_GRIP}) {{half}}|(are|aren't) (we|you|the fingers) {{half}}|(do|does) (we|you|the fingers|"
+            f"{_GRIP}) (lie|sit|press|squeeze|stay|fall) {{half}}",
+            f"({_GRIP}) is {{half}}|we are {{half}}",
+            "[force] {half}",
+        ),
+        build=conditional("half"),
+        slots={
+            "half": {
+                "upper": (
+                    f"((above|over|beyond|past|more than|higher than|in excess of) {_MIDDLE_OF_BAND}|"
+                    f"in the (upper|top|higher) half of {_BAND}|(nearer|closer) [to] the (upper|top) "
+                    f"end [of {_BAND}] than [to] its lower end|"
+                    f"(nearer|closer) [to] the (maximum|most) than the (minimum|least) [of {_BAND}])"
+                ),
+                "lower": (
+                    f"((below|under|less than|lower than|short of) {_MIDDLE_OF_BAND}|"
+                    f"in the (lower|bottom) half of {_BAND}|(nearer|closer) [to] the lower "
+                    f"end [of {_BAND}] than [to] its upper end|"
+                    f"(nearer|closer) [to] the (minimum|least) than the (maximum|most) [of {_BAND}])"
+                ),
+            },
         },
     ),
     QuestionFamily(

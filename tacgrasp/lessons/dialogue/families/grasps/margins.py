@@ -202,7 +202,7 @@ _SCALED = QuestionFamily(
 )
 
 FAMILIES: tuple[QuestionFamily, ...] = (
-    amount_family("lacking", "lacking", _LACKING, "N"),
-    amount_family("excess", "excess", _EXCESS, "N"),
+    amount_family("lacking", "lacking", _LACKING, "N", "mN"),
+    amount_family("excess", "excess", _EXCESS, "N", "mN"),
     _SCALED,
 )

@@ -31,6 +31,9 @@ FAMILIES: tuple[QuestionFamily, ...] = (
     ),
     unfelt(
         "age",
+        "how (many|few) (days|hours|weeks|months|years) ago was {thing} (picked|made|harvested|bought|caught|baked|"
+        "delivered|built|produced)|how long ago was {thing} (picked|made|harvested|bought|baked)|how many (days|hours|"
+        "weeks) (has|have) passed since {thing} was (picked|made|harvested|bought)|"
         "how (old|new|young|ancient) is {thing}|when was {thing} (made|bought|produced|harvested|born|"
         "built|manufactured|picked|invented|delivered|opened)|is {thing} (old|new) or (new|old)|"
         "what year is {thing} from|how long has {thing} (been|lain) (here|there|in the "
@@ -126,6 +129,9 @@ FAMILIES: tuple[QuestionFamily, ...] = (
     ),
     unfelt(
         "danger",
+        "(will|would|could|can) (I|we|you|someone|my {*people_words}) (get|become|be|fall) (sick|ill|poisoned|hurt) "
+        "[if (I|we|you|they) (eat|touch|lick|drink|bite) {thing}|from (eating|touching) {thing}]|"
+        "(does|will|would) {thing} make (me|us|you|people) (sick|ill)|"
         "is {thing} {*states} or {*states}|how (dangerous|poisonous|toxic|harmful|healthy|clean|safe) "
         "is {thing} [to eat|for children|for me|for us]|(can|could|will|would) {thing} (hurt|harm|"
         "poison|kill|infect|explode|bite|cut) (me|us|you|someone|my {*people_words})|"
@@ -190,6 +196,9 @@ FAMILIES: tuple[QuestionFamily, ...] = (
     ),
     unfelt(
         "surroundings",
+        "how many (more|other) {*objects} (are|lie|wait|are waiting|stand) (in|on|under|behind|beside) (the|that|this) "
+        "(crate|box|basket|tray|belt|bin|{*places}) [behind it|behind {thing}|next to it]|how many (more|others) (are there|"
+        "are left|are waiting|are still to come|are to come)|how full is the (crate|box|basket|tray|bin)|"
         "what (is|stands|lies|hangs) (behind|beside|next to|near|around|above|under|in front of) "
         "{thing}|who is (in the {*places}|near {thing}|behind {thing}|behind you|watching us|there)|"
         "is the light on [in the {*places}]|how many ({*objects}|people|{*jobs}) are (in|on) the "

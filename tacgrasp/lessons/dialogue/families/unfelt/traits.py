@@ -148,6 +148,7 @@ FAMILIES: tuple[QuestionFamily, ...] = (
     ),
     unfelt(
         "smell",
+        "does {thing} (whiff|reek|smell) [of (anything|something|{*objects}|{*dishes})]|"
         "(how|what) does {thing} smell [like|of]|what is {thing} smelling of|"
         "(can|do|could) you smell (it|{thing}|something|anything|smoke|gas)|what is that smell|"
         "(good|bad) smell|smell [of {thing}]|how strong does {thing} smell|what do you smell|"

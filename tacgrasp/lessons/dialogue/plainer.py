@@ -1,0 +1,90 @@
+"""A question without what does not change what it asks: address, thanks, tags.
+
+    Hang on, isn't something pressing on it?        is something pressing on it?
+    We haven't gone past 1 mm, have we?             have we gone past 1 mm?
+    There's nothing on the pad, is there?           is there anything on the pad?
+
+Before a tag, and in the verb that begins a question, a denial expects 'yes': it is taken out with
+the tag. 'Is it not deep?' and 'It is not deep, right?' stay, which ask whether it is not.
+
+Not here: wordings (``tacgrasp.lessons.dialogue.families``), spelling (``plain_words``).
+"""
+
+from __future__ import annotations
+
+import re
+
+_VERB = (
+    r"(?:is|are|was|were|has|have|had|do|does|did|can|could|will|would|should|must|may|might|am)"
+)
+_SHORTENED = (
+    r"(?:is|are|was|were|has|have|had|do|does|did|could|would|should|must|might|ca|wo|ai)n['’]?t"
+)
+_VERBS_OF = {"ca": "can", "wo": "will", "ai": "is"}
+_DENIED = re.compile(rf"\b(?:{_SHORTENED}|{_VERB} ?not)\b", re.I)
+_DENIED_FIRST = re.compile(rf"{_SHORTENED}\b", re.I)
+_TAG = re.compile(
+    rf"\s*[,;–—-]\s*(?:or )?\b(?:{_VERB}|(?P<denied>{_SHORTENED})) "
+    r"(?:it|we|they|there|this|that|these|those|one|i)(?P<not> not)?\s*[?.!]*$",
+    re.I,
+)
+_NEGATIVES = {"nothing": "anything", "nobody": "anybody", "none": "any", "no": "any"}
+_NEGATIVE = re.compile(rf"\b(?:{'|'.join(_NEGATIVES)})\b", re.I)
+_CONTRACTED = (
+    (re.compile(r"\b(it|that|there|this|here)['’]s\b", re.I), r"\1 is"),
+    (re.compile(r"\b(we|they|you)['’]re\b", re.I), r"\1 are"),
+    (re.compile(r"\b(i|we|they|you)['’]ve\b", re.I), r"\1 have"),
+)
+_STATED = re.compile(
+    rf"(?P<subject>(?:[\w'’-]+ ){{1,7}}?)(?P<verb>{_VERB}) (?P<rest>.+)", re.I | re.S
+)
+_OPENS = re.compile(rf"(?:{_VERB}|what|how|which|where|why|who|when)\b", re.I)
+_ADDRESS = re.compile(
+    r"(?:(?:ok(?:ay)?|so|well|right then|now then|hang on|hold on|wait|hey(?: \w+)?|hi(?: \w+)?|"
+    r"hello(?: \w+)?|robot|um+|uh+|er+m?|sorry|excuse me|please|quick question|tell me|listen|look|"
+    r"actually|by the way|good (?:morning|afternoon|evening)|just checking|just curious|"
+    r"one more thing|one more question|but|oh|yo|buddy|mate|my friend|dear \w+|(?:mister|mr) \w+)"
+    r"\s*[,:;!.…–—-]+\s+)+",
+    re.I,
+)
+_THANKS = re.compile(
+    r"[\s,]+(?:please|pls|plz|thanks|thank you|thx|mate|buddy|robot|(?:mister|mr|dear) \w+|sir|"
+    r"my friend|if you (?:please|would|do not mind|don['’]t mind))\s*[?.!]*$",
+    re.I,
+)
+
+
+def plainer(question: str) -> str:
+    """A question without address, thanks and tag, and without the denial that expects 'yes'."""
+    text = " ".join(question.split())
+    if opening := _ADDRESS.match(text):
+        text = text[opening.end() :]
+    text = _THANKS.sub("", text)
+    if tag := _TAG.search(text):
+        text = _asked(text, tag)
+    if denied := _DENIED_FIRST.match(text):
+        text = f"{_affirmed(denied[0])}{text[denied.end() :]}"
+    return text or question
+
+
+def _asked(text: str, tag: re.Match[str]) -> str:
+    """What a statement with a tag asks; the text itself where its verb is not found."""
+    stated = text[: tag.start()]
+    if _OPENS.match(stated):
+        return text
+    for pattern, whole in _CONTRACTED:
+        stated = pattern.sub(whole, stated)
+    if not (tag["denied"] or tag["not"]):
+        if denied := _DENIED.search(stated):
+            stated = f"{stated[: denied.start()]}{_affirmed(denied[0])}{stated[denied.end() :]}"
+        else:
+            stated = _NEGATIVE.sub(lambda match: _NEGATIVES[match[0].lower()], stated, count=1)
+    if (found := _STATED.fullmatch(stated)) is None:
+        return text
+    return f"{found['verb']} {found['subject'].strip()} {found['rest']}?"
+
+
+def _affirmed(denied: str) -> str:
+    """A denied verb without its denial: 'can't', 'can not' and 'cannot' become 'can'."""
+    verb = re.sub(r"(?: ?not|n['’]?t)$", "", denied.lower())
+    return _VERBS_OF.get(verb, verb)
