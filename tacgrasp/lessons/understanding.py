@@ -38,7 +38,7 @@ from tacgrasp.lessons.dialogue.meaning import (
     names_of,
     truth_of,
 )
-from tacgrasp.lessons.dialogue.plainer import plainer
+from tacgrasp.lessons.dialogue.plainer import is_beyond, plainer
 from tacgrasp.lessons.dialogue.query import (
     asked_text,
     query_grammar,
@@ -90,8 +90,8 @@ _STANDS_ALONE = re.compile(
 )
 """A question with subject and verb: 'Is it round?' follows nothing, 'Is it?' may."""
 
-MOST_JOINED = 3
-"""Most wordings that are asked together, as in a query."""
+MOST_JOINED = 5
+"""Most wordings of the grammar that are asked together. Our choice; a model's query has three."""
 
 MOST_JOINTS = 8
 """Most places where a question may be divided. Our choice: three questions with commas of their own
@@ -197,6 +197,8 @@ def understood_by_model(
     writer: QueryWriter, question: str, before: str = ""
 ) -> ReadQuestion | None:
     """What a question means to model and classifier; None where they come to no query."""
+    if is_beyond(question):
+        return None
     asked = asked_text(plainer(question), before)
     grammar = query_grammar(len(asked.numbers))
     reply = writer.reply_to(torch.zeros(0, writer.width), asked.words, grammar=grammar)
@@ -281,7 +283,9 @@ def answered(
         scenes = list(_possible(scene, ends))
         values = [answer(asked.meaning, each).value for each in scenes]
         if given.kind is AnswerKind.NUMBER:
-            low, high = np.quantile(np.array(values, dtype=np.float64), [0.05, 0.95])
+            low, high = np.quantile(
+                np.array(values, dtype=np.float64), [0.05, 0.95], method="hazen"
+            )
             interval = float(f"{low:.4g}"), float(f"{high:.4g}")
             holds_well = low < 0 or high < DOUBTFUL_RATIO * low
             holds = _near(asked.meaning, scene, scenes)

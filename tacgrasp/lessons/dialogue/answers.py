@@ -7,7 +7,7 @@ An answer that needs what nobody gave says what is missing.
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from cltp.texts.captions import with_article
 from tacgrasp.lessons.dialogue.expression import Expression
@@ -68,6 +68,8 @@ class Answer:
 def answer(meaning: Meaning, scene: AskedScene) -> Answer:
     """The true answer to a question about a scene."""
     lacking = _lacking(meaning, scene)
+    if lacking is not None and isinstance(meaning, Several):
+        return _in_part(meaning, scene, lacking)
     if lacking is not None:
         return lacking
     match meaning:
@@ -166,6 +168,16 @@ def _several(asked: Several, scene: AskedScene) -> Answer:
             clause = yes if is_mistakable else f"{yes}, {shown}"
         clauses.append(clause)
     return Answer(text=f"{capital('; '.join(clauses))}.", kind=AnswerKind.TEXT)
+
+
+def _in_part(asked: Several, scene: AskedScene, lacking: Answer) -> Answer:
+    """The answer to what has one among several questions, and why the others have none."""
+    known = [part for part in asked.parts if _lacking(part, scene) is None]
+    if not known or not scene.state.in_contact:
+        return lacking
+    told = _several(replace(asked, parts=tuple(known)), scene)
+    unsaid = lacking.text[:1].lower() if not lacking.text.startswith("I ") else lacking.text[:1]
+    return replace(lacking, text=f"{told.text.rstrip('.')}; {unsaid}{lacking.text[1:]}")
 
 
 def _why(asked: Why, scene: AskedScene) -> Answer:

@@ -16,7 +16,7 @@ import re
 from collections.abc import Mapping, Sequence
 
 from cltp.tactile.states import CLASSES
-from tacgrasp.lessons.dialogue.meaning import Check, Length
+from tacgrasp.lessons.dialogue.meaning import Check, Length, grams_of
 from tacgrasp.lessons.dialogue.quantities import MULTIPLIED, QUANTITIES, TIMES
 from tacgrasp.lessons.dialogue.scene import HOLDING_N_PER_G
 
@@ -92,8 +92,6 @@ FATES: Mapping[str, str] = {"slips": "<", "stays": ">="}
 
 GIVEN = "given"
 """Stands for the mass that somebody told."""
-
-MASS_UNITS: Mapping[str, float] = {"g": 1.0, "kg": 1000.0}
 
 WORD_FACTS = {
     name: {"depth": "depth_word", "area": "area_word"}.get(name, name) for name in CLASSES
@@ -180,9 +178,7 @@ def number_text(number: float) -> str:
 def _mass(number: str | None, unit: str | None) -> str:
     if number is None or unit is None:
         return "mass_g"
-    if unit not in MASS_UNITS:
-        raise ValueError(f"there is no mass in {unit}")
-    return number_text(float(number) * MASS_UNITS[unit])
+    return grams_of(f"{number} {unit}")
 
 
 def _measured(name: str, unit: str) -> tuple[str, str]:

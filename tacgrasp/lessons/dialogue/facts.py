@@ -53,7 +53,7 @@ UNMEASURED: Mapping[str, str] = {
 }
 """What is missing where a name has no value; other names are not felt."""
 
-UNTOUCHED_NAMES = {*UNMEASURED, "contact"}
+UNTOUCHED_NAMES = {*UNMEASURED, "contact", "gram_n"}
 """Names that have a meaning where nothing touches."""
 
 _WORDS: Mapping[str, Mapping[str, str]] = {

@@ -43,12 +43,14 @@ class Amount:
         unit: Unit of the answer.
         less: What is taken from it: a number of the question, with the factor to its own unit
             ('100 / 1000'); '' for the quantity itself.
+        of: A mass of the question that is meant in place of the given one ('60 g'); '' for none.
         length: How long the answer is to be.
     """
 
     quantity: str
     unit: str
     less: str = ""
+    of: str = ""
     length: Length = Length.FREE
 
 
@@ -153,6 +155,21 @@ FACTS: Mapping[str, str] = {
 """Facts that an answer may name, with their truths."""
 
 
+MASS_UNITS: Mapping[str, float] = {"g": 1.0, "kg": 1000.0}
+
+
+def grams_of(mass: str) -> str:
+    """A mass of a question in grams: '60 g' and '0.06 kg' are '60'.
+
+    Raises:
+        ValueError: Its unit is none of a mass.
+    """
+    number, _, unit = mass.partition(" ")
+    if unit not in MASS_UNITS:
+        raise ValueError(f"there is no mass in {unit}")
+    return f"{float(number) * MASS_UNITS[unit]:.6g}"
+
+
 def kind_of(meaning: Meaning) -> AnswerKind:
     """The kind of answer that a question wants."""
     match meaning:
@@ -172,8 +189,10 @@ def kind_of(meaning: Meaning) -> AnswerKind:
 def truth_of(meaning: Meaning) -> str:
     """Truth of a question, as in a file of questions; '' where touch knows none."""
     match meaning:
-        case Amount(quantity=quantity, less=less):
+        case Amount(quantity=quantity, less=less, of=of):
             truth = QUANTITIES[quantity].truth
+            if of:
+                truth = truth.replace("mass_g", grams_of(of))
             return f"{truth} - {less}" if less else truth
         case Check(condition=condition):
             return condition

@@ -3,6 +3,8 @@
     Hang on, isn't something pressing on it?        is something pressing on it?
     We haven't gone past 1 mm, have we?             have we gone past 1 mm?
     There's nothing on the pad, is there?           is there anything on the pad?
+    Could I trouble you for the depth?              give me the depth?
+    Is the force above 0.5 pounds?                  is the force above 227 grams?
 
 Before a tag, and in the verb that begins a question, a denial expects 'yes': it is taken out with
 the tag. 'Is it not deep?' and 'It is not deep, right?' stay, which ask whether it is not.
@@ -13,6 +15,8 @@ Not here: wordings (``tacgrasp.lessons.dialogue.families``), spelling (``plain_w
 from __future__ import annotations
 
 import re
+
+from policies.instructions.numerals import in_digits
 
 _VERB = (
     r"(?:is|are|was|were|has|have|had|do|does|did|can|could|will|would|should|must|may|might|am)"
@@ -54,17 +58,67 @@ _THANKS = re.compile(
 )
 
 
+_POLITE = re.compile(
+    r"(?:(?:could|can|may|might) (?:i|we) (?:trouble|bother|ask) you (?:for|to (?:tell|give) me)|"
+    r"i (?:would|['’]d) be (?:most |very )?(?:grateful|obliged|glad|thankful) (?:for|to have))\s+",
+    re.I,
+)
+_PURPOSE = re.compile(
+    r",? (?:just the (?:figure|number),? )?so (?:that )?(?:i|we) (?:may|can|could) .*$", re.I
+)
+_NUMBER = r"(?<![\d.,])(\d+(?:\.\d+)?)"
+_IMPERIAL = (
+    (
+        re.compile(rf"{_NUMBER}\s*-?(?:pounds?|lbs?|lbf)(?:[ -](?:of )?force)?\b", re.I),
+        453.59237,
+        "grams",
+    ),
+    (
+        re.compile(rf"{_NUMBER}\s*-?(?:ounces?|oz|ozf)(?:[ -](?:of )?force)?\b", re.I),
+        28.349523,
+        "grams",
+    ),
+    (
+        re.compile(rf"{_NUMBER}\s*-?(?:inch(?:es)?|in(?=\.?$| deep| (?:of|from|off|to)\b))", re.I),
+        25.4,
+        "mm",
+    ),
+)
+"""Numbers in pounds, ounces and inches: the unit's size, and the unit that has it."""
+
+_UNREAD = re.compile(
+    rf"{_NUMBER}\s*(?:[kmh]?pa\b|(?:kilo|mega|hecto)?pascals?\b|psi\b|bars?\b|atm\b)|"
+    r"\b(?:[4-9]|\d\d+) times (?:that|this|the|it|as)\b",
+    re.I,
+)
+
+
+def is_beyond(question: str) -> bool:
+    """Whether a question has a pressure or a multiple that no query has, so that none is near."""
+    return _UNREAD.search(in_digits(question.lower())) is not None
+
+
 def plainer(question: str) -> str:
     """A question without address, thanks and tag, and without the denial that expects 'yes'."""
-    text = " ".join(question.split())
+    text = _metric(" ".join(question.split()))
     if opening := _ADDRESS.match(text):
         text = text[opening.end() :]
-    text = _THANKS.sub("", text)
+    text = _PURPOSE.sub("", _POLITE.sub("give me ", _THANKS.sub("", text), count=1))
     if tag := _TAG.search(text):
         text = _asked(text, tag)
     if denied := _DENIED_FIRST.match(text):
         text = f"{_affirmed(denied[0])}{text[denied.end() :]}"
     return text or question
+
+
+def _metric(text: str) -> str:
+    """A text whose pounds, ounces and inches are grams and millimetres."""
+    if not re.search(r"pound|\blb|ounce|\boz|inch|\din\b|\d in\b", text, re.I):
+        return text
+    digits = in_digits(text.lower())
+    for pattern, size, unit in _IMPERIAL:
+        digits = pattern.sub(lambda match: f"{float(match[1]) * size:.4g} {unit}", digits)  # noqa: B023
+    return digits
 
 
 def _asked(text: str, tag: re.Match[str]) -> str:

@@ -118,6 +118,7 @@ _QUANTITIES: Mapping[str, Quantity] = {
     "used": Quantity(
         truth="100 * force_n / limit_n", unit="%", noun="used part of the limit", decimals=0
     ),
+    "needed": Quantity(truth="gram_n * mass_g", unit="N", noun="force that surely holds it"),
     "lacking": Quantity(
         truth="max(0, band_low_n - force_n)", unit="N", noun="force lacking to the band"
     ),

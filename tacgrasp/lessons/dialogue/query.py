@@ -8,6 +8,7 @@
     check force #1 +- #2 N.             a number with its tolerance
     check force about #1 N.             a number without one
     amount depth - #1 mm.               how much more than a number
+    amount needed #1 g N.               the force that surely holds a mass; 'needed N' the given one
     amount half force N.                a multiple; 'twice', 'thrice'
     check twice force over.             a multiple judged as the force is
     check half depth > #1 mm.           a multiple against a number
@@ -37,7 +38,6 @@ from policies.instructions.numerals import in_digits
 from tacgrasp.lessons.dialogue.conditions import (
     FATES,
     GIVEN,
-    MASS_UNITS,
     MEASURED,
     ORDERED,
     SIGNS,
@@ -47,6 +47,7 @@ from tacgrasp.lessons.dialogue.conditions import (
     taken,
 )
 from tacgrasp.lessons.dialogue.meaning import (
+    MASS_UNITS,
     Amount,
     Check,
     Description,
@@ -65,6 +66,9 @@ from tacgrasp.lessons.dialogue.subjects import SUBJECTS
 MOST_NUMBERS = 4
 """Most numbers of a question that a query can name."""
 
+NEEDED_IN = ("N", "mN")
+"""Units of the force that a mass needs."""
+
 AMOUNTS: Mapping[str, tuple[str, ...]] = {
     "depth": ("mm", "µm", "cm"),
     "x": ("mm", "µm"),
@@ -79,6 +83,7 @@ AMOUNTS: Mapping[str, tuple[str, ...]] = {
     "limit": ("N", "mN", "g", "cN"),
     "headroom": ("N", "mN", "g", "cN"),
     "used": ("%",),
+    "needed": NEEDED_IN,
     "lacking": ("N", "mN"),
     "excess": ("N", "mN"),
     "mass": ("g", "kg"),
@@ -152,6 +157,7 @@ _ONE_WORD = re.compile(r"\bone(?=[- ](?:\w+ )?(?:word|sentence|question)\b)")
 _MM = re.compile(r"\bmm\b(?!²|\^)")
 _NUMBER = re.compile(r"(?<= )-?\d\S*")
 _REFERENCE = re.compile(r"#(\d)")
+_NEEDED = re.compile(rf"needed #(\d) ({'|'.join(MASS_UNITS)}) ({'|'.join(NEEDED_IN)})")
 _LESSENED = re.compile(r"(\w+) - #(\d) (\S+)")
 
 
@@ -271,6 +277,8 @@ def _joinable(num_numbers: int) -> Iterator[str]:
         )
         yield from (f"check {denial}{test}" for test in _numbered(num_numbers))
     yield from (f"check {fate} {GIVEN}" for fate in FATES)
+    for n in range(1, num_numbers + 1):
+        yield from (f"amount needed #{n} {m} {unit}" for m in MASS_UNITS for unit in NEEDED_IN)
     for quantity, units in LESSENED.items():
         for unit in units:
             yield from (f"amount {quantity} - #{n} {unit}" for n in range(1, num_numbers + 1))
@@ -306,6 +314,8 @@ def _part(meaning: Meaning, numbers: Sequence[float]) -> str:
             quantity, ()
         ):
             return f"amount {quantity} {_referred(f'- {less.split()[0]}', numbers)} {unit}"
+        case Amount(quantity="needed", unit=unit, of=of) if of and unit in NEEDED_IN:
+            return f"amount {_referred(f'needed {of}', numbers)} {unit}"
         case Amount(quantity=quantity, unit=unit, less="") if unit in AMOUNTS.get(quantity, ()):
             return f"amount {quantity} {unit}"
         case Which(name=name, is_open=is_open) if name in WORDS:
@@ -348,6 +358,9 @@ def _meaning(text: str, numbers: Sequence[float], length: Length) -> Meaning:
             quantity, place, unit = lessened.groups()
             less = taken(quantity, numbers[int(place) - 1], unit)
             return Amount(quantity=quantity, unit=unit, less=less, length=length)
+        case "amount" if needed := _NEEDED.fullmatch(rest):
+            of = f"{number_text(numbers[int(needed[1]) - 1])} {needed[2]}"
+            return Amount(quantity="needed", unit=needed[3], of=of, length=length)
         case "amount" if len(words) > 1 and words[-1] in AMOUNTS.get(" ".join(words[:-1]), ()):
             return Amount(quantity=" ".join(words[:-1]), unit=words[-1], length=length)
         case "word" | "choice" if rest in WORDS:

@@ -73,7 +73,7 @@ class AskedScene:
 
     def values(self) -> Mapping[str, Value]:
         """Values by name; lengths in mm, forces in N, masses in g, the area in percent."""
-        return {**self._felt(), **self._agreed()}
+        return {**self._felt(), **self._agreed(), "gram_n": HOLDING_N_PER_G}
 
     def _felt(self) -> dict[str, Value]:
         state = self.state

@@ -25,6 +25,7 @@ TOLERANCES: Mapping[str, Tolerance] = {
     "area_percent": Tolerance(absolute=1.0, fraction=0.25),
     "force_n": Tolerance(absolute=0.1, fraction=0.25),
     "holds_g": Tolerance(absolute=5.0, fraction=0.25),
+    "gram_n": Tolerance(absolute=0.01, fraction=0.02),
 }
 """Tolerance of a number by a name in its truth; 2 % where none of these is in it.
 

@@ -86,8 +86,7 @@ def test_joined_wordings_are_asked_together(question, query):
         "Is it red and round?",  # the first is not felt
         "Is it soft and ripe?",
         "How deep is it? And why?",
-        "Will it slip, and how deep is it, and how hard, and is it round?",  # four
-        "Tell me x and y, and is it round and is it deep?",  # four, two of them in one wording
+        "Tell me x and y, is it round, is it deep, is it rough, and is it centered?",  # six
         "How deep is it, " * 12,
         "and",
         ", ",

@@ -14,7 +14,7 @@ from tacgrasp.lessons.dialogue.families.comparisons import near as near_comparis
 from tacgrasp.lessons.dialogue.families.comparisons import placed as placed_comparisons
 from tacgrasp.lessons.dialogue.families.contacts import contact as contacts
 from tacgrasp.lessons.dialogue.families.contacts import reasons, sides, together
-from tacgrasp.lessons.dialogue.families.grasps import advice, force, lifting, margins
+from tacgrasp.lessons.dialogue.families.grasps import advice, force, lifting, margins, needed
 from tacgrasp.lessons.dialogue.families.unfelt import backgrounds, off_topic, others, traits
 from tacgrasp.lessons.dialogue.meaning import Meaning, truth_of
 from tacgrasp.lessons.dialogue.patterns.family import QuestionFamily
@@ -39,6 +39,7 @@ FAMILIES: tuple[QuestionFamily, ...] = (
     *lifting.FAMILIES,
     *advice.FAMILIES,
     *margins.FAMILIES,
+    *needed.FAMILIES,
     *reasons.FAMILIES,
     *traits.FAMILIES,
     *backgrounds.FAMILIES,

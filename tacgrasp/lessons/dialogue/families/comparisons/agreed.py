@@ -204,7 +204,7 @@ _USED_DIRECT = (
     "(do|did|does) (we|you|I|the fingers|this grip) {now} {use_up} {share_of}|have (we|you|I|the fingers) {now} {used_up} "
     "{share_of}|(is|are|was) {share_of} {now} {spent}|(are|is) (we|the gripper) {now} (using|using up|at|running at|"
     "working at) {share_of}|has {share_of} {now} been {spent}|(has|have) (the force|we) {now} (gone|got) {share_of}"
-    "|is (the force|our grip|it) {now} {share_of}"
+    "|is (the force|our grip|it) {now} {share_of}|are we {now} {share_of}"
 )
 _USED_STATEMENTS = "(we|the fingers) {now} (use|use up|are using|are at) {share_of}|{share_of} is {now} {spent}|we have {used_up} {share_of}"
 _USED_BARE = "{share_of} {spent}|using {share_of}|at {share_of}"

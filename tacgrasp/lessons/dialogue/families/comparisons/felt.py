@@ -142,6 +142,9 @@ _DEPTH_SLOTS: Slots = {
         ">=": "(as far as|at least as deep as|as deep as|at least as far as)",
         "<=": "(no further than|no deeper than|not further than|not deeper than|no farther than)",
     },
+    "deeper_but": {
+        BETWEEN: "deeper than {#t} [{unit}] (and|but) (less than|less deep than|shallower than|not deeper than|below) {#u} {unit}"
+    },
     "or_deeper": {
         ">=": "(or deeper|or more|or further|or deeper than that|or even deeper)",
         "<=": "(or less|or shallower|or less deep|or not even that)",
@@ -218,6 +221,7 @@ _DEPTH = (
     "our depth|indentation|the depth value|the dent in the {gel}|the impression"
 )
 _DEEP_DIRECT = (
+    "is ({touch}|{thing}|the dent) {now} {deeper_but}|"
     "is ({touch}|{thing}|{thing}|the dent|the imprint|the press) {now} {deeper} {amount}|"
     "is ({touch}|{thing}|the dent) {now} ({more_than} {amount}|{amount} {or_more}) deep|"
     "is ({touch}|{thing}|the dent) {amount} (deep {or_more}|{or_deeper})|"

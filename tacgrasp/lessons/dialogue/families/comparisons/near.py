@@ -73,12 +73,18 @@ _ABOUT = (
     "((about|around|roughly|approximately|some|near|close to|nearly|more or less|pretty much|circa|"
     "in the region of|in the neighbourhood of|something like) {#t} {unit}|"
     "{#t} {unit} (or thereabouts|or so|more or less|roughly|approximately|give or take)|"
-    "(about|around|roughly|approximately|near|close to) {half})"
+    "(about|around|roughly|approximately|near|close to) {half}|"
+    "[exactly|precisely|just|equal to] {#t} {unit} {deep})"
 )
 
 
-def _about_family(name: str, quantity: str, nouns: str, half: str, *units: str) -> QuestionFamily:
-    """A family that asks whether a quantity is about a number, or about half (a unit) of the first."""
+def _about_family(
+    name: str, quantity: str, nouns: str, half: str, deep: str, *units: str
+) -> QuestionFamily:
+    """A family that asks whether a quantity is about a number, or about half (a unit) of the first.
+
+    'Is it 0.3 mm deep?' asks so too: no measured number is another one to the last digit.
+    """
 
     def build(bindings: Bindings, numbers: Numbers) -> Check:
         middle, unit = numbers.get("t", 0.5), bindings.get("unit", units[0])
@@ -96,7 +102,7 @@ def _about_family(name: str, quantity: str, nouns: str, half: str, *units: str) 
             f"| are we [now|still] at {_ABOUT} ) [now|right now|at the moment|please] [, {{length}}]"
         ),
         build=build,
-        slots={"unit": {unit: UNITS[unit] for unit in units}, "half": half},
+        slots={"unit": {unit: UNITS[unit] for unit in units}, "half": half, "deep": deep},
         choose=lambda scene, bindings, rng: (
             draw(scene, bindings, rng) if "unit" in bindings else {}
         ),
@@ -110,7 +116,17 @@ FAMILIES: tuple[QuestionFamily, ...] = (
         "it|that|the [contact|grip|normal|present] force|our (grip|force)|the (grip|squeeze|load)|"
         "the force on {thing}",
         "half a (newton|N)",
-        *("N", "mN", "g"),
+        "[of force]",
+        *("N", "mN"),
+    ),
+    _about_family(
+        "force_about_grams",
+        "force",
+        "the [contact|grip|normal|present] force|our (grip|force)|the (grip|squeeze|load)|"
+        "the force on {thing}",
+        "{#t} {unit}",
+        "of force",
+        *("g",),
     ),
     _about_family(
         "depth_about",
@@ -118,6 +134,7 @@ FAMILIES: tuple[QuestionFamily, ...] = (
         "it|that|the [contact|press|present] depth|the (indentation|dent|penetration)|"
         "the depth of {touch}",
         "half a (millimetre|mm)",
+        "[deep|of depth]",
         *("mm", "µm"),
     ),
     _near_family(

@@ -180,7 +180,8 @@ def slots_of(units: Sequence[str], fixed: Mapping[str, str], *, is_bare: bool = 
                 "({#t} and {#u} {unit}|{units})|"
                 "(from|in the range|in the range of|in the range from|within|inside|"
                 "in the interval|anything from|within the range) {#t} (to|to|-) {#u} {unit}|"
-                "{#t} (to|-) {#u} {unit})"
+                "{#t} (to|-) {#u} {unit}|"
+                "(more than|over|above|at least) {#t} [{unit}] (and|but) (less than|under|below|at most|not more than) {#u} {unit})"
             )
         },
         "range": {
