@@ -62,7 +62,7 @@ _PRONOUN = re.compile(
 )
 """'One' that is no number: 'this one'."""
 
-_UNIT = r"(?=[ -]*(?:of )?(?:an? |1 )?(?:single |full |whole )?(?:milli|kilo|newt|n\b|kn\b|mn\b|kg|gram|gf|pounds?\b|lbs?\b|lbf\b|ounces?\b|oz\b|ozf\b))"
+_UNIT = r"(?=[ -]*(?:of )?(?:an? |1 )?(?:single |full |whole )?(?:milli|kilo|newt|n\b|kn\b|mn\b|kg|gram|gf|inch|pounds?\b|lbs?\b|lbf\b|ounces?\b|oz\b|ozf\b))"
 _OF_A = r"(?:[ -]+(?:of )?(?:an?|1)(?= ))?"
 
 

@@ -116,7 +116,7 @@ _QUANTITIES: Mapping[str, Quantity] = {
     "limit": Quantity(truth="limit_n", unit="N", noun="limit"),
     "headroom": Quantity(truth="limit_n - force_n", unit="N", noun="force left to the limit"),
     "used": Quantity(
-        truth="100 * force_n / limit_n", unit="%", noun="used part of the limit", decimals=0
+        truth="100 * force_n / limit_n", unit="%", noun="share of the limit in use", decimals=0
     ),
     "needed": Quantity(truth="gram_n * mass_g", unit="N", noun="force that surely holds it"),
     "lacking": Quantity(

@@ -1,5 +1,7 @@
 """Questions whose wording the grammar has are read by it, and the model is not asked."""
 
+from dataclasses import replace
+
 import pytest
 
 from tacgrasp.lessons.understanding import answered, understood, understood_in_turn
@@ -34,6 +36,20 @@ class Refusing:
         ("Is there room to squeeze harder?", "check force under."),
         ("How deep is it, in microns?", "amount depth µm."),
         ("Is the force above half a newton?", "check force > #1 N."),
+        ("Is the force above half a pound?", "check force > #1 g."),
+        ("Hang on, isn't it deeper than 0.3 mm?", "check depth > #1 mm."),
+        ("We aren't pushing with more than 5 newtons, are we?", "check force > #1 N."),
+        ("Is it exactly 0.3 mm deep?", "check depth about #1 mm."),
+        ("Is it deeper than 0.3 and less than 0.4 mm?", "check depth #1 - #2 mm."),
+        ("What percentage of the limit are we using?", "amount used %."),
+        ("Have we used more than half of the force limit?", "check used > #1 %."),
+        ("Is the force above the midpoint of the band?", "check force upper."),
+        ("How much force is needed for 60 g?", "amount needed #1 g N."),
+        ("What force is needed to hold the given weight?", "amount needed N."),
+        ("How big is the contact, in one word?", "choice area in a word."),
+        ("How big is the contact, briefly?", "amount area % in a word."),
+        ("Contact patch area in mm²?", "amount area mm²."),
+        ("Could I trouble you for the depth in microns?", "amount depth µm."),
     ],
 )
 def test_a_wording_of_the_grammar_means_what_the_grammar_says(question, query):
@@ -72,6 +88,10 @@ def test_another_wording_is_put_to_the_model():
             "How deep is it, how hard is it pressed and what shape is it?",
             "amount depth mm; amount force N; word shape.",
         ),
+        (
+            "How deep, how hard, where, what shape, what texture?",
+            "amount depth mm; amount force N; choice position; word shape; word texture.",
+        ),
         ("How deep is it, and how deep is it?", "amount depth mm."),
         ("Is it deep, please?", "check depth deep."),
     ],
@@ -108,3 +128,29 @@ def test_what_is_joined_with_something_else_is_left_to_the_model(question):
 def test_about_a_number_is_within_a_tenth_of_it(question, force_n, text):
     assert HELD.state.force_n == force_n
     assert answered(understood(Refusing(), question), HELD).answer.text == text
+
+
+@pytest.mark.parametrize(
+    ("question", "text"),
+    [
+        ("How much force is needed for 60 g?", "1.23 N."),
+        ("What force is needed to hold the given weight?", "0.51 N."),
+        ("Is the force above half of the limit?", "Yes, the share of the limit in use is 64 %."),
+        (
+            "What shape is it, and is it safe to lift?",
+            "It is an ellipsoid; I can't say: no force band is given.",
+        ),
+    ],
+)
+def test_what_has_no_band_is_said_to_have_none_beside_what_is_felt(question, text):
+    bare = question.startswith("What shape")
+    scene = replace(HELD, contract=None if bare else HELD.contract)
+    assert answered(understood(Refusing(), question), scene).answer.text == text
+
+
+def test_a_pressure_is_not_guessed():
+    class Silent(Refusing):
+        def reply_to(self, touch, prompt, *, grammar):
+            raise AssertionError("a pressure was put to the model")
+
+    assert understood(Silent(), "Is the pressure above 10 kPa?") is None

@@ -1,0 +1,51 @@
+"""Questions without address, thanks and tags, in metric units."""
+
+import pytest
+
+from tacgrasp.lessons.dialogue.plainer import is_beyond, plainer
+
+
+@pytest.mark.parametrize(
+    ("question", "plain"),
+    [
+        ("Hang on, isn't something pressing on it?", "is something pressing on it?"),
+        ("We haven't gone past 1 mm, have we?", "have We gone past 1 mm?"),
+        ("There's nothing on the pad, is there?", "is There anything on the pad?"),
+        ("The finish isn't rough, or is it?", "is The finish rough?"),
+        ("It isn't a cylinder, is it?", "is It a cylinder?"),
+        ("A 50 g part won't slip, will it?", "will A 50 g part slip?"),
+        ("That's a cylinder, isn't it?", "is That a cylinder?"),
+        ("Force in mN pls", "Force in mN"),
+        ("Could I trouble you for the depth?", "give me the depth?"),
+        ("Give me the force, so I may put it into the report", "Give me the force"),
+        ("Is it over 0.5 pounds?", "is it over 226.8 grams?"),
+        ("Is it deeper than a tenth of an inch?", "is it deeper than 2.54 mm?"),
+    ],
+)
+def test_what_does_not_change_the_question_is_left_out(question, plain):
+    assert plainer(question) == plain
+
+
+@pytest.mark.parametrize(
+    "question",
+    [
+        "Is it not deep?",
+        "It is not deep, right?",
+        "How deep is it?",
+        "Is it a cylinder or a ring?",
+        "Left or right, and palm or tip?",
+        "How wide is the band, in newtons?",
+        "I can't tell whether this is a sphere or a ring; can you?",
+        "please",
+        "",
+    ],
+)
+def test_other_questions_stay(question):
+    assert plainer(question) == question
+
+
+def test_pressures_and_strange_multiples_are_beyond_every_query():
+    assert is_beyond("Is the pressure above 10 kPa?")
+    assert is_beyond("Would ten times that be too much?")
+    assert not is_beyond("Would twice that be too much?")
+    assert not is_beyond("Is the pressure above 2 N?")
