@@ -19,7 +19,7 @@ from tacgrasp.lessons.dialogue.scene import NAMES, AskedScene
 VERDICTS = ("contact", "cut")
 """Names whose value is yes or no."""
 
-_DIMENSIONS = {"_mm": "length", "_n": "force", "_percent": "fraction", "_g": "mass"}
+_DIMENSIONS = {"_mm": "length", "_mm2": "area", "_n": "force", "_percent": "fraction", "_g": "mass"}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
