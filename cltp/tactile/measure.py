@@ -15,6 +15,7 @@ from scipy import ndimage
 from cltp.tactile.cells import cell_means, filled
 from cltp.tactile.cloud import FloatArray, TactileCloud, grid_axes_mm
 from cltp.tactile.local_volume import local_contact
+from cltp.tactile.sensors import SensorSpec
 from cltp.tactile.states import (
     NO_CONTACT_STATE,
     ContactState,
@@ -92,7 +93,7 @@ def _measure(cloud: TactileCloud, in_contact: bool | None) -> ContactState:
         x_mm=x_mm,
         y_mm=y_mm,
         area_fraction=fraction,
-        force_n=cloud.force_scale.factor * STIFFNESS_N_PER_MM3 * local.volume_mm3,
+        force_n=cloud.force_scale.factor * stiffness_of(cloud.sensor) * local.volume_mm3,
         depth=depth_word(depth),
         position=position_word(x_mm, y_mm, cloud.sensor),
         area=area_word(fraction),
@@ -140,3 +141,12 @@ STIFFNESS_N_PER_MM3 = 0.39
 nominal stiffness. Source: fit to simulated berries, tomatoes, eggs and pegs with noise (seeds below
 1000), by the median of F / V above 0.4 N. ``tacgrasp bench touch`` prints it fitted anew, and the
 residual: copy it here when the gel's nominal modulus or thickness changes."""
+
+_OTHER_STIFFNESS = {"gelstereo": 0.19}
+"""The same of sensors with another gel [N/mm³]: a GelStereo's is softer and thicker. Source: the
+same fit, 160 contacts."""
+
+
+def stiffness_of(sensor: SensorSpec) -> float:
+    """Force over locally displaced volume of a sensor's nominal gel [N/mm³]."""
+    return _OTHER_STIFFNESS.get(sensor.name, STIFFNESS_N_PER_MM3)

@@ -25,7 +25,7 @@ from cltp.tactile.shear.noise import ShearUnit
 from primitives.devices import GripperState, Pose
 from primitives.errors import LimitError, RobotError
 from sim.grasp.bodies import Range
-from sim.grasp.fingers import COLUMNS, ROWS
+from sim.grasp.fingers import grid_of
 from sim.grasp.world import Grasp
 
 START_POSE = Pose(
@@ -318,33 +318,33 @@ class SimSensor(_Device):
         self._noise = replace(noise, drift_mm=0.0)
         self._frame_rng = np.random.default_rng([seed, 4])
         rng = np.random.default_rng([seed, 5])
-        shape = (ROWS, COLUMNS)
-        self._drift = SlowDrift.draw(rng, shape, spec, noise, drift_level)
+        self._shape = grid_of(spec)
+        self._drift = SlowDrift.draw(rng, self._shape, spec, noise, drift_level)
         self._contact_error = drift_level * CONTACT_ERROR.quantile(rng.random())
-        self._reference = np.zeros(shape, np.float32)
+        self._reference = np.zeros(self._shape, np.float32)
 
     @property
     def spec(self) -> SensorSpec:
         return self._spec
 
     def surface_mm(self) -> NDArray[np.float32]:
-        """Surface with the reconstruction error of its contact alone, shape (ROWS, COLUMNS) [mm].
+        """Surface with the reconstruction error of its contact alone, shape ``grid_of`` [mm].
 
         It changes with the contact only: no frame's noise and no drift is in it.
         """
         patch = self._grasp.patch
         if patch is None:
-            return np.zeros((ROWS, COLUMNS), np.float32)
+            return np.zeros(self._shape, np.float32)
         rng = np.random.default_rng([self._seed, 3, self._grasp.contacts])
         length_mm = rng.uniform(*self._noise.drift_length_mm)
-        error = smooth_field((ROWS, COLUMNS), self._spec, length_mm, rng)
+        error = smooth_field(self._shape, self._spec, length_mm, rng)
         return patch.height_mm + self._contact_error * patch.height_mm.max() * error
 
     def frame_mm(self, surface_mm: NDArray[np.float32], t_s: float) -> NDArray[np.float32]:
         """A new frame of a surface [mm]: with the unit's errors, noise, and the drift at ``t_s``.
 
         Args:
-            surface_mm: From ``surface_mm``, shape (ROWS, COLUMNS).
+            surface_mm: From ``surface_mm``, shape (rows, columns).
             t_s: Time of the episode [s].
         """
         noisy = self._noise.apply(surface_mm, self._spec, self._frame_rng)
@@ -356,8 +356,8 @@ class SimSensor(_Device):
         self._reference = self._mean_of(REFERENCE_FRAMES)
 
     def _mean_of(self, count: int) -> NDArray[np.float32]:
-        """Mean of the next frames of the present gel, shape (ROWS, COLUMNS) [mm]."""
-        surface_mm, total = self.surface_mm(), np.zeros((ROWS, COLUMNS), np.float32)
+        """Mean of the next frames of the present gel, shape ``grid_of`` [mm]."""
+        surface_mm, total = self.surface_mm(), np.zeros(self._shape, np.float32)
         for _ in range(count):
             self._clock.advance(1.0 / self._spec.frame_hz)
             total += self.frame_mm(surface_mm, self._clock.simulated_s)

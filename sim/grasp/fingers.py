@@ -31,8 +31,8 @@ from sim.grasp.bodies import Body
 
 GRAVITY_M_S2 = 9.81
 
-ROWS, COLUMNS = 60, 80
-"""Grid over the sensing area: 0.254 mm on a GelSight Mini."""
+COLUMNS = 80
+"""Columns of the grid over the sensing area: elements of 0.254 mm on a GelSight Mini."""
 
 BRUISE_RADIUS_MM = 1.5
 """Pressure is averaged over a disc of this radius before it is compared with the bruise limit.
@@ -46,6 +46,15 @@ LENGTH_MM = 5.0
 """Turns a rotation into a displacement, and a moment into a force."""
 
 _BLOCK = 2
+
+
+def grid_of(sensor: SensorSpec) -> tuple[int, int]:
+    """Rows and columns of the grid over the sensing area, whose elements are as good as square.
+
+    The rows are whole blocks (``_BLOCK``): 60 × 80 on a GelSight Mini, 80 × 80 on a square pad.
+    """
+    blocks = round(COLUMNS / _BLOCK * sensor.height_mm / sensor.width_mm)
+    return max(1, blocks) * _BLOCK, COLUMNS
 
 
 def _motions(count: int = 500) -> FloatArray:
@@ -90,7 +99,8 @@ class Patch:
     Attributes:
         force_n: True normal force [N].
         offset_mm: The body's origin on the pad [mm, gel frame].
-        height_mm: Shape (ROWS, COLUMNS), surface of the gel over the sensing area [mm].
+        height_mm: Shape (rows, columns) of ``grid_of``, surface of the gel over the sensing area
+            [mm].
         pressure_kpa: Same shape.
         peak_kpa: Largest pressure, averaged as ``BRUISE_RADIUS_MM`` says.
         depth_mm: Approach of the body [mm].
@@ -178,11 +188,12 @@ class FlatFingers:
         self.body, self.up, self.material = body, up, material
         self.sensor = sensor
         self._pitch_mm = sensor.width_mm / COLUMNS
-        self._x_mm, self._y_mm = grid_axes_mm(sensor, ROWS, COLUMNS)
+        rows, columns = grid_of(sensor)
+        self._x_mm, self._y_mm = grid_axes_mm(sensor, rows, columns)
         self._layer = ElasticLayer(
             material,
-            rows=ROWS,
-            columns=COLUMNS,
+            rows=rows,
+            columns=columns,
             pitch_mm=self._pitch_mm,
             body_modulus_mpa=body.modulus_mpa,
         )

@@ -23,7 +23,7 @@ from sim.gel.layer import ElasticLayer, gel_of
 from sim.gel.shear.coarse import FACTOR, LOOP_TOL, CoarseShear
 from sim.gel.shear.layer import Shear, ShearLayer
 from sim.gel.shear.sensed import TAXELS, shear_field
-from sim.grasp.fingers import COLUMNS, ROWS
+from sim.grasp.fingers import grid_of
 from tacgrasp.benchmarks.figures import Figure, times_ms
 
 SENSOR = "gelsight_mini"
@@ -54,10 +54,11 @@ class Path:
 def path_of(ball_mm: float, force_n: float, steps: int = STEPS) -> Path:
     """A ball that is moved to and fro by a quarter of a millimetre and turned by 0.03 rad."""
     sensor = sensor_named(SENSOR)
-    pitch = sensor.width_mm / COLUMNS
-    layer = ElasticLayer(gel_of(SENSOR), rows=ROWS, columns=COLUMNS, pitch_mm=pitch)
-    y = (torch.arange(ROWS) - (ROWS - 1) / 2) * pitch
-    x = (torch.arange(COLUMNS) - (COLUMNS - 1) / 2) * pitch
+    rows, columns = grid_of(sensor)
+    pitch = sensor.width_mm / columns
+    layer = ElasticLayer(gel_of(SENSOR), rows=rows, columns=columns, pitch_mm=pitch)
+    y = (torch.arange(rows) - (rows - 1) / 2) * pitch
+    x = (torch.arange(columns) - (columns - 1) / 2) * pitch
     square = y[:, None] ** 2 + x**2
     cap = ball_mm - (ball_mm**2 - square).clamp(min=0).sqrt()
     gap = torch.where(square < ball_mm**2, cap, torch.inf).expand(steps, -1, -1)

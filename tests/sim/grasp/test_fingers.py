@@ -6,14 +6,15 @@ import numpy as np
 import pytest
 import torch
 
-from cltp.tactile.sensors import sensor_named
+from cltp.tactile.sensors import SENSORS, sensor_named
 from cltp.torch_threads import torch_threads
 from sim.gel import contact_solver, layer
 from sim.gel.layer import gel_of
 from sim.grasp.bodies import draw_body
-from sim.grasp.fingers import COLUMNS, GRAVITY_M_S2, ROWS, FlatFingers, Patch
+from sim.grasp.fingers import GRAVITY_M_S2, FlatFingers, Patch, grid_of
 
 SENSOR = sensor_named("gelsight_mini")
+ROWS, COLUMNS = grid_of(SENSOR)
 PITCH_MM = SENSOR.width_mm / COLUMNS
 
 
@@ -116,3 +117,10 @@ def test_fingers_beside_the_body_do_not_reach_it():
     resistance = fingers()
     assert resistance.reaches((0.0, 0.0))
     assert not resistance.reaches((40.0, 0.0))
+
+
+@pytest.mark.parametrize("name", sorted(SENSORS))
+def test_elements_of_the_grid_are_square_on_every_pad(name):
+    sensor = SENSORS[name]
+    rows, columns = grid_of(sensor)
+    assert sensor.height_mm / rows == pytest.approx(sensor.width_mm / columns, rel=0.02)

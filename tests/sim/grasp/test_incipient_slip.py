@@ -12,7 +12,7 @@ from sim.gel.layer import ElasticLayer, gel_of
 from sim.gel.shear.coarse import CoarseShear
 from sim.gel.shear.load import carry
 from sim.grasp.bodies import draw_body
-from sim.grasp.fingers import COLUMNS, GRAVITY_M_S2, ROWS, FlatFingers
+from sim.grasp.fingers import GRAVITY_M_S2, FlatFingers, grid_of
 
 SENSOR = sensor_named("gelsight_mini")
 
@@ -23,7 +23,8 @@ def test_a_berry_sticks_ever_less_until_the_world_lets_it_slide(seed):
     gel = gel_of("gelsight_mini")
     fingers = FlatFingers(berry, SENSOR, gel)
     flesh = GelMaterial(thickness_mm=math.inf, young_mpa=berry.young_mpa, poisson=berry.poisson)
-    layer = ElasticLayer(gel, rows=ROWS, columns=COLUMNS, pitch_mm=SENSOR.width_mm / COLUMNS)
+    rows, columns = grid_of(SENSOR)
+    layer = ElasticLayer(gel, rows=rows, columns=columns, pitch_mm=SENSOR.width_mm / columns)
     coarse = CoarseShear(layer, friction=berry.friction, body=flesh)
     half_weight_n = berry.mass_kg / 2 * GRAVITY_M_S2
     load = [0.0, -half_weight_n, -berry.com_mm[0] * half_weight_n]

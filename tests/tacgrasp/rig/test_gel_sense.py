@@ -80,3 +80,12 @@ def first_felt_n(seed, *, steps):
 def test_a_contact_that_grows_slowly_while_fingers_close_is_felt_as_early_as_at_once():
     for seed in (1, 4):
         assert first_felt_n(seed, steps=12) <= 1.31 * first_felt_n(seed, steps=1)
+
+
+@pytest.mark.parametrize("name", ["gelsight_mini", "gelsight_r15", "gelstereo", "taxels"])
+def test_the_felt_force_is_the_true_one_whatever_the_sensors_gel(name):
+    rig = build("egg", 3, sensor_name=name, start_offset_mm=(0.0, 0.0), noise_level=0)
+    sense = GelSense(rig.sensor)
+    sense.take_reference()
+    rig.grasp.close(2.0)
+    assert sense.felt_force(sense.read()).value == pytest.approx(2.0, rel=0.2)
