@@ -23,6 +23,7 @@ from cltp.encoder.tokenizers import UNIT_CELL_MM
 from cltp.errors import TouchError
 from cltp.tactile.cells import height_grid, sums_around
 from cltp.tactile.cloud import TactileCloud
+from cltp.tactile.contact.raised_pad import is_raised
 from cltp.tactile.encoder_input import encoder_input
 from cltp.tactile.force_scale import POSSIBLE_RATIO
 from cltp.tactile.measure import contact_state
@@ -57,6 +58,7 @@ class Flag(StrEnum):
     CONTRADICTION = "contradiction"  # the depth that is measured directly is another one
     FORCE = "force"  # the force is impossible for the one that is commanded
     PAD = "pad"  # the pad has another size or proportions than any that was learned from
+    RAISED = "raised"  # the whole pad is raised: pressed all over, or without its zero
 
 
 UNSURE_MM: Mapping[str, float] = {"depth_mm": 0.6, "x_mm": 10.0, "y_mm": 10.0}
@@ -203,6 +205,8 @@ def _flags(numbers: Mapping[str, Number], cloud: TactileCloud) -> Iterator[Flag]
     """What a cloud and the numbers of it say by themselves."""
     if not _is_learned_pad(cloud.sensor):
         yield Flag.PAD
+    if is_raised(cloud):
+        yield Flag.RAISED
     if fine_noise_mm(cloud) > MOST_NOISE_MM:
         yield Flag.NOISE
     if not all(math.isfinite(value) for number in numbers.values() for value in number) or (

@@ -200,7 +200,8 @@ class LlmPolicy:
         flags = flag_reason(said.reading)
         if unread := unread_reason(said.reading, observation.in_contact):
             return self._directly(unread, observation, force_n, barred, reply)
-        if flags and felt is not None and felt.value < force_n.low:
+        is_raised = Flag.RAISED in said.reading.flags  # what presses all over can't be felt
+        if flags and not is_raised and felt is not None and felt.value < force_n.low:
             return firmer(flags, felt, force_n)
         hold = flags or hold_reason(reply, extraction, self._abstain_below)
         if not hold:

@@ -45,6 +45,7 @@ def main(argv: Sequence[str]) -> int:
     """Describe one file."""
     flags = parse(DescribeFlags, argv, prog="tacgrasp describe")
     from cltp.sensing.touch_files import read_cloud
+    from cltp.tactile.contact.raised_pad import is_raised
     from cltp.tactile.sensors import sensor_named
     from tacgrasp.config.layers import load
     from tacgrasp.config.terms import contract_of
@@ -71,7 +72,7 @@ def main(argv: Sequence[str]) -> int:
         return 0
     for line in describe(cloud):
         console.print(line)
-    if not is_touched(cloud):
+    if is_raised(cloud) or not is_touched(cloud):
         return 0
     weights = flags.weights or default_weights()
     if weights == shipped_weights() and not weights.is_dir():

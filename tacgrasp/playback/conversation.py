@@ -8,17 +8,19 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import Any
 
-from cltp.encoder.reader import Flag, reading_of
+from cltp.encoder.reader import reading_of
 from cltp.llm.generation import Talker
 from cltp.tactile.cloud import TactileCloud
+from cltp.tactile.contact.raised_pad import is_raised, raised_text
 from cltp.tactile.encoder_input import encoder_input
 from cltp.tactile.states import NO_CONTACT_STATE
 from policies.llm.spoken import SpokenContact, spoken_contact
 from primitives.contract import Contract
 from tacgrasp.lessons.dialogue.answers import Answer
+from tacgrasp.lessons.dialogue.meaning import AnswerKind
 from tacgrasp.lessons.dialogue.scene import AskedScene
 from tacgrasp.lessons.understanding import answered, understood_in_turn
-from tacgrasp.playback.describe import is_touched
+from tacgrasp.playback.describe import RAISED, cloud_flags, is_touched
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -30,14 +32,15 @@ class Spoken:
         confidence: Probability that the question is understood and the answer right.
         interval: Of a number, what holds it in nine cases of ten, in its unit; None without one.
         query: What the model took the question for; '' where it came to nothing.
-        flags: Why what is felt is not to be trusted; empty where it may be.
+        flags: Why what is felt is not to be trusted, those of ``tacgrasp describe``; empty where it
+            may be.
     """
 
     answer: Answer
     confidence: float
     interval: tuple[float, float] | None
     query: str
-    flags: tuple[Flag, ...] = ()
+    flags: tuple[str, ...] = ()
 
     def json(self) -> dict[str, Any]:
         """The answer for programs."""
@@ -50,12 +53,14 @@ class Spoken:
             "confidence": self.confidence,
             "decidable": self.answer.decidable,
             "query": self.query,
-            "flags": [flag.value for flag in self.flags],
+            "flags": list(self.flags),
         }
 
 
 class Conversation:
     """Asks about one contact; a follow-up is put with the question before it.
+
+    Of a pad that is raised all over no question is answered.
 
     Args:
         cloud: The contact.
@@ -79,18 +84,30 @@ class Conversation:
     ) -> None:
         self._talker = talker
         spoken = SpokenContact(NO_CONTACT_STATE, {}, {})
-        self._flags: tuple[Flag, ...] = ()
+        self._flags: tuple[str, ...] = ()
+        self._unread = f"I can't say: {raised_text(cloud)}." if is_raised(cloud) else ""
         told = AskedScene(contract=contract, mass_g=mass_g, sensor=cloud.sensor)
-        if is_touched(cloud):
+        if self._unread:
+            self._flags = (RAISED,)
+        elif is_touched(cloud):
             felt = talker.feel(encoder_input(cloud, talker.layout), cloud.force_scale)
             spoken = spoken_contact(talker, felt, cloud.sensor)
-            self._flags = reading_of(felt.readings, cloud, talker.model.heads.contradiction).flags
+            reading = reading_of(felt.readings, cloud, talker.model.heads.contradiction)
+            self._flags = (*(flag.value for flag in reading.flags), *cloud_flags(cloud))
         self._scene = replace(told, state=spoken.state)
         self._words, self._ends = spoken.confidence, spoken.ends
         self._before = ""
 
     def ask(self, question: str) -> Spoken:
         """Answer a question."""
+        if self._unread:
+            return Spoken(
+                answer=Answer(text=self._unread, kind=AnswerKind.UNKNOWABLE, decidable=False),
+                confidence=1.0,
+                interval=None,
+                query="",
+                flags=self._flags,
+            )
         asked = understood_in_turn(self._talker, question, self._before)
         self._before = question
         given = answered(asked, self._scene, self._words, self._ends)

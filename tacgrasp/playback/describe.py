@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING, Any
 from cltp.errors import TouchError
 from cltp.tactile.cloud import TactileCloud
 from cltp.tactile.contact.contact_test import touches_alone
+from cltp.tactile.contact.raised_pad import is_raised, raised_text
 from cltp.tactile.measure import contact_state
-from cltp.tactile.states import DIMENSIONS, NUMBERS
+from cltp.tactile.states import DIMENSIONS, NO_CONTACT_STATE, NUMBERS, ContactState
 from cltp.texts.captions import caption
 from policies import Observation
 
@@ -28,6 +29,9 @@ NO_INTERVALS = "no_intervals"
 
 UNCALIBRATED_FORCE = "uncalibrated_force"
 """Flag of a force on a unit without a force calibration."""
+
+RAISED = "raised"
+"""Flag of a pad that is raised all over (``cltp.encoder.reader.Flag``)."""
 
 
 def is_touched(cloud: TactileCloud) -> bool:
@@ -58,6 +62,11 @@ def make_reader(weights: Path) -> TouchReader | None:
     return TouchReader(encoder, heads) if heads.has_intervals else None
 
 
+def cloud_flags(cloud: TactileCloud) -> list[str]:
+    """Flags of a contact that its cloud gives without a reader."""
+    return [] if cloud.force_scale.is_calibrated else [UNCALIBRATED_FORCE]
+
+
 def describe(cloud: TactileCloud) -> list[str]:
     """Measured facts of a contact, a line each.
 
@@ -70,6 +79,8 @@ def describe(cloud: TactileCloud) -> list[str]:
         f"sensor    {sensor.name}, {sensor.width_mm:.1f} × {sensor.height_mm:.1f} mm",
         f"points    {len(cloud.points_mm)}",
     ]
+    if is_raised(cloud):
+        return [*lines, f"contact   unreadable: {raised_text(cloud)}"]
     if state.depth is None or state.position is None or state.area is None:
         return [*lines, f"contact   none: {NO_CONTACT}"]
     return [
@@ -93,7 +104,11 @@ def describe_in_numbers(cloud: TactileCloud, reader: TouchReader | None) -> dict
 
     Raises:
         TouchError: The cloud can't be measured, or its z has the wrong sign.
+
+    Of a pad that is raised all over, ``contact`` is None, and nothing is read but the flag.
     """
+    if is_raised(cloud):
+        return _in_numbers(cloud, None, NO_CONTACT_STATE, flags=[RAISED])
     is_in_contact = is_touched(cloud)
     state, flags = contact_state(cloud, in_contact=is_in_contact), []
     numbers: dict[str, dict[str, float | None]] = {}
@@ -112,16 +127,32 @@ def describe_in_numbers(cloud: TactileCloud, reader: TouchReader | None) -> dict
         numbers = {
             name: {"value": getattr(state, name), "lo": None, "hi": None} for name in NUMBERS
         }
-    if is_in_contact and not cloud.force_scale.is_calibrated:
-        flags.append(UNCALIBRATED_FORCE)
+    if is_in_contact:
+        flags += cloud_flags(cloud)
+    return _in_numbers(
+        cloud, is_in_contact, state, numbers=numbers, confidence=confidence, flags=flags
+    )
+
+
+def _in_numbers(
+    cloud: TactileCloud,
+    contact: bool | None,
+    state: ContactState,
+    *,
+    numbers: dict[str, dict[str, float | None]] | None = None,
+    confidence: dict[str, float] | None = None,
+    flags: list[str],
+) -> dict[str, Any]:
+    """The keys of ``describe_in_numbers``."""
     words = {name: getattr(state, name) for name in DIMENSIONS}
+    said = raised_text(cloud) + "." if contact is None else caption(state)
     return {
         "sensor": cloud.sensor.name,
         "points": len(cloud.points_mm),
-        "contact": is_in_contact,
-        "state": words | {"cut": sorted(state.cut), "caption": caption(state)},
-        "numbers": numbers,
-        "confidence": confidence,
+        "contact": contact,
+        "state": words | {"cut": sorted(state.cut), "caption": said},
+        "numbers": numbers or {},
+        "confidence": confidence or {},
         "flags": flags,
     }
 

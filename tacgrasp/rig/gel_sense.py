@@ -13,6 +13,7 @@ from typing import TypeVar
 from cltp.errors import TouchError
 from cltp.tactile.cloud import TactileCloud
 from cltp.tactile.contact.contact_test import NUM_FRAMES, UntouchedGel
+from cltp.tactile.contact.raised_pad import is_raised, raised_text
 from cltp.tactile.measure import contact_state
 from cltp.tactile.sensors import SensorSpec
 from primitives.sense import ContactSense, Interval
@@ -103,11 +104,14 @@ class GelSense:
         From the first reference on it is less the drift since then.
 
         Raises:
-            TouchError: The sensor gives no fresh cloud.
+            TouchError: The sensor gives no fresh cloud, or the whole pad is raised over the
+                reference.
         """
         cloud = self._sensor.read(frames_per_reading(self._sensor.spec))
         if self._untouched is None:
             return cloud
+        if is_raised(cloud):  # neither a contact that can be read nor none
+            raise TouchError(f"{raised_text(cloud)}; look at the pad, then grasp anew")
         self._in_contact = self._tested(cloud, self._untouched)
         if self._in_contact:
             self._untouched.follow_around(cloud)

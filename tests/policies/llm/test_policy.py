@@ -342,6 +342,19 @@ def test_nothing_is_measured_where_nothing_is_felt(
     assert decision.action is Primitive.RESET
 
 
+@pytest.mark.parametrize(
+    ("flag", "action"), [(Flag.NOISE, Primitive.INCREASE_FORCE), (Flag.RAISED, None)]
+)
+def test_no_grip_becomes_firmer_where_the_whole_pad_is_raised(
+    flag: Flag, action: Primitive | None, untrained: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    policy = LlmPolicy(untrained)
+    unread(policy, monkeypatch, flag, state=HELD.state)
+    felt = Interval(value=0.2, low=0.15, high=0.27)
+    observation = Observation(cloud=touch(), in_contact=True, felt_force_n=felt)
+    assert policy.follow(observation, Band(low=0.4, high=0.5), 1.0).action is action
+
+
 def pressed_along(first: int, last: int) -> TactileCloud:
     """A ridge along x, in columns of 0.2 mm of a GelSight Mini from its left edge."""
     y, x = np.mgrid[:76, :102]

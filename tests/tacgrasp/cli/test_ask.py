@@ -145,7 +145,7 @@ def test_programs_get_value_unit_confidence_query_and_flags(
         "decidable": True,
         "interval": pytest.approx([160, 250], abs=15),
         "query": "amount depth µm.",
-        "flags": ["noise"],
+        "flags": ["noise", "uncalibrated_force"],
     }
     talker.query = "unknown price."
     assert main(["ask", touch, "What does it cost?", "--json"]) == 0
@@ -162,6 +162,19 @@ def test_an_untouched_pad_answers_by_the_contact_test(
 ) -> None:
     assert main(["ask", untouched, "How deep is it?"]) == 0
     assert capsys.readouterr().out == "Nothing touches the pad.\n"
+
+
+def test_no_question_about_a_pad_that_is_pressed_all_over_is_answered(
+    talker: Writer, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    np.save(tmp_path / "pressed.npy", np.full((75, 100), 0.5, np.float32))
+    asked = ["ask", str(tmp_path / "pressed.npy"), "Is it safe to lift?", "--goal", "0.5", "0.9"]
+    assert main(asked) == 0
+    assert "I can't say: the whole pad is raised by 0.50 mm" in capsys.readouterr().out
+    assert main([*asked, "--json"]) == 0
+    said = json.loads(capsys.readouterr().out)
+    assert (said["kind"], said["decidable"], said["flags"]) == ("unknowable", False, ["raised"])
+    assert talker.prompts == []
 
 
 def test_follow_ups_of_a_dialogue_are_put_with_the_question_before(

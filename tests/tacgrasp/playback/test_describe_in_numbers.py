@@ -19,7 +19,13 @@ from cltp.tactile.point_layout import GRID
 from cltp.tactile.sensors import SENSORS
 from cltp.tactile.states import CLASSES, NUMBERS
 from tacgrasp.__main__ import main
-from tacgrasp.playback.describe import NO_INTERVALS, UNCALIBRATED_FORCE, describe_in_numbers
+from tacgrasp.playback.describe import (
+    NO_INTERVALS,
+    RAISED,
+    UNCALIBRATED_FORCE,
+    describe,
+    describe_in_numbers,
+)
 from tests.fakes.tiny_weights import bump
 
 MINI = SENSORS["gelsight_mini"]
@@ -145,3 +151,17 @@ def test_the_command_prints_one_object(tmp_path, capsys) -> None:
     assert main(["describe", str(tmp_path / "touch.npy"), "--json"]) == 0
     told = json.loads(capsys.readouterr().out)
     assert told["contact"] is True and "force_n" in told["numbers"]
+
+
+def test_a_pad_that_is_pressed_all_over_is_flagged_and_not_called_untouched(
+    reader: TouchReader,
+) -> None:
+    pressed = cloud_of_pixels(np.full((60, 80), 0.5), MINI)
+    told = describe_in_numbers(pressed, reader)
+    assert json.loads(json.dumps(told)) == told
+    assert (told["contact"], told["numbers"]) == (None, {})
+    assert told["flags"] == [RAISED] == [Flag.RAISED]
+    assert told["state"]["caption"].startswith("the whole pad is raised by 0.50 mm")
+    assert "unreadable: the whole pad is raised" in describe(pressed)[-1]
+    assert Flag.RAISED in reader.read(pressed).flags
+    assert Flag.RAISED not in reader.read(cloud()).flags

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from cltp.errors import TouchError
 from cltp.tactile.force_scale import UNCALIBRATED, ForceScale
 from cltp.tactile.measure import contact_state
 from sim.gel.layer import gel_of
@@ -89,3 +90,16 @@ def test_the_felt_force_is_the_true_one_whatever_the_sensors_gel(name):
     sense.take_reference()
     rig.grasp.close(2.0)
     assert sense.felt_force(sense.read()).value == pytest.approx(2.0, rel=0.2)
+
+
+def test_a_pad_that_is_pressed_all_over_is_no_reading_instead_of_no_contact():
+    rig = build("egg", 3)
+    sense = GelSense(rig.sensor)
+    sense.take_reference()
+    frame_mm = rig.sensor.frame_mm
+    rig.sensor.frame_mm = lambda *given: frame_mm(*given) + np.float32(0.02)  # as much as drift
+    assert sense.in_contact(sense.read()) is False
+    rig.sensor.frame_mm = lambda *given: frame_mm(*given) + np.float32(0.5)
+    for read in (sense.read, sense.read_contact):
+        with pytest.raises(TouchError, match=r"the whole pad is raised by 0\.50 mm"):
+            read()
