@@ -98,9 +98,14 @@ def contract_lines(contract: Contract) -> list[str]:
     origin = contract.origins.get("force_n", "the task")
     line = (
         f"understood: {contract.summary}, {band.low:.2f}-{band.high:.2f} N, never above "
-        f"{limit_n:.3g} N ({origin})"
+        f"{limit_n:.3g} N ({origin}); place x {_span(contract.x_mm)}, y {_span(contract.y_mm)} mm"
     )
     return [line, *(f"  {note}" for note in contract.assumed)]
+
+
+def _span(band: Band) -> str:
+    is_even = band.low == -band.high
+    return f"±{band.high:g}" if is_even else f"{band.low:g} to {band.high:g}"
 
 
 def band_lines(contract: Contract) -> list[str]:

@@ -67,6 +67,13 @@ def test_every_band_of_a_contract_has_a_field_of_the_configuration_and_a_line():
     assert all(line.endswith("]") for line in lines)
 
 
+def test_the_printed_line_shows_forces_limit_and_place():
+    line = contract_lines(contract_of(*load("strawberry")))[0]
+    assert line.endswith("0.15-2.50 N, never above 5 N (the task); place x ±4, y ±3 mm")
+    moved = replace(contract_of(*load("strawberry")), x_mm=Band(low=-1, high=2))
+    assert "place x -1 to 2, y ±3 mm" in contract_lines(moved)[0]
+
+
 def test_a_refused_contract_is_shown_with_its_reason_and_without_a_band():
     refused = refused_contract()
     assert contract_lines(refused)[0] == "refused: it asks to let go: drop"
