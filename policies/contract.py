@@ -7,7 +7,8 @@ contract (``policies.contract_steps``), keeping its limit (``primitives.force_gu
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import re
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -15,14 +16,15 @@ from policies.force_terms import (
     AROUND,
     LEANS,
     MANNERS,
-    MOST_OF_NEEDS,
-    MOST_OF_TASK,
+    ROUNDING,
     RefusedError,
+    most_by_words_n,
     named_terms,
     scaled_terms,
+    toleranced_band,
     words_of,
 )
-from policies.instructions.quantities import Quantities
+from policies.instructions.quantities import Force, Quantities
 from policies.instructions.reader import Request, read_request
 from primitives.contract import (
     DEFAULT_AREA,
@@ -101,7 +103,7 @@ def read_contract(text: str, task: TaskTerms, given: Mapping[str, object]) -> Co
     try:
         if request.refused:
             raise RefusedError(request.refused)
-        _take_words(draft, request, task, is_own=text.strip() == task.instruction.strip())
+        _take_words(draft, request, task, is_own=_key(text) == _key(task.instruction))
         _take_configuration(draft, given)
         _check_reach(draft, given, task)
     except RefusedError as error:
@@ -142,6 +144,8 @@ def _take_words(draft: _Draft, request: Request, task: TaskTerms, *, is_own: boo
         )
     if numbers.unitless:
         raise RefusedError(f"{numbers.unitless} has no unit; say '{numbers.unitless} N'")
+    if numbers.unread:
+        raise RefusedError(numbers.unread)
     if numbers.percentage:
         raise RefusedError(f"{numbers.percentage} of what is not said; name the force: '0.5 N'")
     if numbers.denied:
@@ -149,6 +153,10 @@ def _take_words(draft: _Draft, request: Request, task: TaskTerms, *, is_own: boo
             f"it says what not to hold with ({numbers.denied}), and names no other force"
         )
     _take_lengths(draft, numbers)
+    if numbers.place:
+        draft.assumed.append(
+            f"{numbers.place!r} is not read: goal.x_mm and goal.y_mm set the place on the pad"
+        )
     if manner.sign and not is_own and not manner.conflict:
         draft.lean = LEANS[manner.sign, manner.strong]
     if numbers.forces:
@@ -156,8 +164,9 @@ def _take_words(draft: _Draft, request: Request, task: TaskTerms, *, is_own: boo
         draft.set_force(
             named_terms(numbers.forces, manner, task.force), f"your words: {draft.words}"
         )
-        if any(force.kind == "most" for force in numbers.forces):
-            draft.named_most_n = draft.force.limit_n
+        if mosts := [force.value_n for force in numbers.forces if force.kind == "most"]:
+            draft.named_most_n = ROUNDING * min(mosts)
+        _note_tolerances(draft, numbers.forces, numbers.rest)
     elif numbers.delta_n is not None:
         draft.words = f"{numbers.delta_n:+.3g} N"
         draft.scale = 1 + numbers.delta_n / task.force.force_n.middle
@@ -165,8 +174,8 @@ def _take_words(draft: _Draft, request: Request, task: TaskTerms, *, is_own: boo
     elif numbers.factor is not None:
         draft.words, draft.scale = numbers.factor_words.strip(), numbers.factor
         draft.set_force(scaled_terms(numbers.factor, task.force), f"your words: {draft.words}")
-    elif not is_own and request.text in task.others:
-        draft.set_force(task.others[request.text], "your words: those of another task")
+    elif not is_own and (other := _others(task).get(_key(request.text))):
+        draft.set_force(other, "your words: those of another task")
         draft.lean = NEUTRAL_LEAN  # its manner is that of its own terms
     elif manner.conflict:
         raise RefusedError(f"it asks for both: {manner.conflict}; say which")
@@ -178,6 +187,31 @@ def _take_words(draft: _Draft, request: Request, task: TaskTerms, *, is_own: boo
         draft.set_force(force, f"{name}: your words: {manner.words}")
     elif manner.words:
         draft.assumed.append(f"{manner.words!r} cancel each other: the task's band")
+
+
+def _note_tolerances(draft: _Draft, forces: Sequence[Force], rest: str) -> None:
+    """Say which stated tolerances are not kept as they are."""
+    if re.search(r"± ?[\d.,]+ ?(?:%|per)", rest):
+        draft.assumed.append("a tolerance that belongs to no single force is not used")
+    for force in forces:
+        if force.within_n and force.kind != "value":
+            draft.assumed.append(f"{force.words!r}: the tolerance of a bound is not used")
+        elif force.within_n:
+            band, (low_n, high_n) = toleranced_band(force), force.within_n
+            if (band.low, band.high) != (low_n, high_n):
+                draft.assumed.append(
+                    f"{force.words!r} is narrower than can be held, which is "
+                    f"{band.low:.3g}-{band.high:.3g} N"
+                )
+
+
+def _key(instruction: str) -> str:
+    """An instruction without what changes no meaning: case, spaces and the final full stop."""
+    return " ".join(instruction.casefold().split()).rstrip(" .!")
+
+
+def _others(task: TaskTerms) -> dict[str, ForceTerms]:
+    return {_key(instruction): terms for instruction, terms in task.others.items()}
 
 
 def _take_lengths(draft: _Draft, numbers: Quantities) -> None:
@@ -202,7 +236,8 @@ def _take_configuration(draft: _Draft, given: Mapping[str, object]) -> None:
     if isinstance(band, Band):
         said = draft.force.force_n
         is_above = draft.named_most_n is not None and band.high > draft.named_most_n
-        if draft.words and (is_above or band.high < said.low or band.low > said.high):
+        highest_n = max(said.high, draft.named_most_n or 0.0)
+        if draft.words and (is_above or band.high < said.low or band.low > highest_n):
             raise RefusedError(
                 f"the configuration sets force_n {band.low:g}-{band.high:g} N, the instruction "
                 f"says {draft.words!r}; change one of them"
@@ -226,6 +261,7 @@ def _take_configuration(draft: _Draft, given: Mapping[str, object]) -> None:
             draft.force = replace(draft.force, force_n=band, limit_n=float(limit_n))
             draft.origins["limit_n"] = CONFIGURATION
         else:
+            draft.force = replace(draft.force, limit_n=draft.named_most_n)
             draft.assumed.append(f"{draft.words!r} is below the configuration's limit_n")
     for name in BANDS[2:]:
         if name in given:
@@ -246,12 +282,16 @@ def _check_reach(draft: _Draft, given: Mapping[str, object], task: TaskTerms) ->
             "gripper can keep to for certain (gripper.min_force_n times gripper.max_force_gain)"
         )
     by_words = draft.origins["force_n"] not in (TASK, CONFIGURATION)
-    factor = MOST_OF_NEEDS if task.force.needs else MOST_OF_TASK
-    most_n = factor * task.force.limit_n
+    most_n = most_by_words_n(task.force)
     # the limit of a named range is bounded too, so that "1 to 50 N" is refused
-    is_beyond = band.middle > most_n or (draft.named_most_n or 0.0) > most_n
+    is_named = draft.named_most_n is not None
+    is_beyond = band.middle > most_n or (is_named and limit_n > most_n)
     if by_words and "limit_n" not in given and is_beyond:
+        factor = most_n / task.force.limit_n
         raise RefusedError(
             f"{draft.words or f'{band.middle:.3g} N'} is more than {factor:g} times the "
             f"task's limit ({task.force.limit_n:.3g} N); if it is meant, set --goal.force-n"
         )
+    if by_words and draft.words and "limit_n" not in given and limit_n > most_n:
+        within = Band(low=min(band.low, most_n), high=min(band.high, most_n))
+        draft.force = replace(draft.force, force_n=within, limit_n=most_n)

@@ -17,6 +17,10 @@ AROUND = 0.14
 """Half width of the band around a named force, as a fraction. Our choice: below the 15 % that
 people mean by a number; the felt force varies by some percent from frame to frame."""
 
+LEAST_TOLERANCE = 0.05
+"""Narrowest half width of a band that a tolerance names, as a fraction. Our choice: a step aims
+with about 5 %, and the felt force varies by some percent from frame to frame."""
+
 BELOW_MOST = 0.9
 """Top of the band under a named most, as a fraction of it: room for the error of a felt force."""
 
@@ -63,6 +67,11 @@ FIRMER_LIMIT = 1.08
 grip, the nearer the bruise, so that the reserve is smaller than ``LIMIT_OVER_BAND``."""
 
 
+def most_by_words_n(task: ForceTerms) -> float:
+    """Largest force, and largest limit, that words alone may name under a task [N]."""
+    return (MOST_OF_NEEDS if task.needs else MOST_OF_TASK) * task.limit_n
+
+
 class RefusedError(Exception):
     """An instruction that makes no contract; the message says why."""
 
@@ -83,12 +92,12 @@ def named_terms(forces: Sequence[Force], manner: Manner, task: ForceTerms) -> Fo
     least = max((f.value_n for f in forces if f.kind == "least"), default=0.0)
     _check(forces, values, most, least)
     if values:
-        band = _around(sum(values) / len(values), least)
+        band = _around(forces, least)
     elif least > 0 and most < math.inf:
         top_n = BELOW_MOST * most
         band = Band(low=least, high=top_n if top_n > 1.1 * least else most)
-    elif most < math.inf and most > MOST_OF_TASK * task.limit_n:
-        return task  # a bound so far above says nothing beyond the task's own
+    elif most < math.inf and most > most_by_words_n(task):
+        return task  # it asks for nothing beyond the task's own
     elif most < math.inf:
         band = _under(BELOW_MOST * most, task.force_n)
         band = band if task.needs else _lean(band, manner)
@@ -104,7 +113,10 @@ def named_terms(forces: Sequence[Force], manner: Manner, task: ForceTerms) -> Fo
         limit_n = ROUNDING * most
         band = Band(low=min(band.low, limit_n), high=min(band.high, limit_n))
         return ForceTerms(force_n=band, limit_n=limit_n, needs=needs)
-    return ForceTerms(force_n=band, limit_n=default_limit_n(band), needs=needs)
+    limit_n = default_limit_n(band)
+    if not values and band.middle >= task.force_n.middle:  # more than usual is asked for
+        limit_n = max(limit_n, task.limit_n)
+    return ForceTerms(force_n=band, limit_n=limit_n, needs=needs)
 
 
 def _check(forces: Sequence[Force], values: list[float], most: float, least: float) -> None:
@@ -126,9 +138,28 @@ def words_of(forces: Sequence[Force]) -> str:
     return ", ".join(dict.fromkeys(force.words for force in forces))
 
 
-def _around(value_n: float, least_n: float) -> Band:
+def _around(forces: Sequence[Force], least_n: float) -> Band:
+    """The band of the stated tolerance around the named forces, or one of ``AROUND``."""
+    values = [f.value_n for f in forces if f.kind == "value"]
+    value_n = sum(values) / len(values)
     band = Band(low=value_n * (1 - AROUND), high=value_n * (1 + AROUND))
+    for force in forces:
+        if force.kind == "value" and force.within_n:
+            band = toleranced_band(force)
     return Band(low=max(band.low, least_n), high=max(band.high, least_n))
+
+
+def toleranced_band(force: Force) -> Band:
+    """Band of a force with a stated tolerance [N], no narrower than can be held.
+
+    Raises:
+        RefusedError: The tolerance is not finite, or leaves no force.
+    """
+    low_n, high_n = force.within_n or (force.value_n, force.value_n)
+    if not 0 < low_n <= high_n < math.inf:
+        raise RefusedError(f"{force.words}: with that tolerance the grip may have no force at all")
+    least_n = LEAST_TOLERANCE * force.value_n
+    return Band(low=min(low_n, force.value_n - least_n), high=max(high_n, force.value_n + least_n))
 
 
 def _under(top_n: float, task: Band) -> Band:
@@ -149,7 +180,8 @@ def _lean(band: Band, manner: Manner) -> Band:
 def scaled_terms(factor: float, task: ForceTerms) -> ForceTerms:
     """The task's band with its middle moved by a factor.
 
-    A softer band has a limit that is softer too, a firmer one less reserve above it.
+    A softer band has a limit that is softer too, a firmer one less reserve above it, but never a
+    lower limit than the task's.
 
     Raises:
         RefusedError: No force is left.
@@ -161,12 +193,14 @@ def scaled_terms(factor: float, task: ForceTerms) -> ForceTerms:
     if task.needs:  # the light end stays: it is for other objects, not for another manner
         low = band.low * min(1.0, factor)
         scaled = Band(low=low, high=max(2 * middle - low, low))
-        return replace(task, force_n=scaled, limit_n=_scaled_limit_n(factor, scaled))
+        return replace(task, force_n=scaled, limit_n=_scaled_limit_n(factor, scaled, task))
     inside = min(abs(middle - band.low), abs(band.high - middle))
     half = min(max(LEAST_HALF * middle, inside), MOST_HALF * middle)
     scaled = Band(low=middle - half, high=middle + half)
-    return ForceTerms(force_n=scaled, limit_n=_scaled_limit_n(factor, scaled))
+    return ForceTerms(force_n=scaled, limit_n=_scaled_limit_n(factor, scaled, task))
 
 
-def _scaled_limit_n(factor: float, scaled: Band) -> float:
-    return default_limit_n(scaled) if factor <= 1 else FIRMER_LIMIT * scaled.high
+def _scaled_limit_n(factor: float, scaled: Band, task: ForceTerms) -> float:
+    if factor < 1:
+        return default_limit_n(scaled)
+    return max(FIRMER_LIMIT * scaled.high, task.limit_n)

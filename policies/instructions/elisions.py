@@ -15,20 +15,23 @@ _BARE = NUMBER.removeprefix(ALONE)
 _PERCENT = r"\s*(?:%|percent|per cent)"
 _ONE = rf"(?P<a>{NUMBER})\s*(?P<u>(?:{UNIT})\b)"
 
+_MORE = r"(?:more|harder|firmer|tighter|greater|higher|above|over)"
+_LESS = r"(?:less|softer|gentler|lighter|smaller|lower|below|under)"
 _TIMES = {"half": 0.5, "twice": 2.0, "double": 2.0, "triple": 3.0, "thrice": 3.0}
 _PARTS = {"third": 3, "quarter": 4, "fourth": 4, "fifth": 5, "tenth": 10}
 _MULTIPLE = re.compile(
-    rf"(?:\b(?P<word>{'|'.join(_TIMES)})|(?P<times>{NUMBER})\s*(?:times|x|×)|(?P<percent>{NUMBER}){_PERCENT}|"
-    rf"\b(?:(?P<count>an?|\d) )?(?P<part>{'|'.join(_PARTS)})s?)(?: of| as [a-z]+ as)?(?: the)?\s+{_ONE}"
+    rf"(?:\b(?P<word>{'|'.join(_TIMES)})|(?P<times>{NUMBER})\s*(?:times|x|×|\*)|(?P<percent>{NUMBER}){_PERCENT}|"
+    rf"\b(?:(?P<count>an?|\d) )?(?P<part>{'|'.join(_PARTS)})s?)(?: of| as [a-z]+ as| (?:(?P<more>{_MORE})|(?P<less>{_LESS})) than)?(?: the)?\s+{_ONE}"
 )
-_MORE = r"(?:more|harder|firmer|tighter|greater|higher|above|over)"
-_LESS = r"(?:less|softer|gentler|lighter|smaller|lower|below|under)"
 _RELATIVE = re.compile(
-    rf"(?P<percent>{NUMBER}){_PERCENT} (?:(?P<more>{_MORE})|{_LESS})(?: than)?\s+{_ONE}"
+    rf"(?P<percent>{NUMBER}){_PERCENT} (?:(?P<more>{_MORE})|{_LESS}|off)(?: than)?\s+{_ONE}"
 )
 
 _SUM = re.compile(
-    rf"(?P<a>{NUMBER})\s*(?P<u>(?:{UNIT})\b)?\s*(?P<sign>\+|\bplus\b|\bminus\b|\band (?:another|an extra|an additional)\b)\s*(?P<b>{_BARE})(?:\s*(?P<v>(?:{UNIT})\b))?(?!\s*(?:/|%|per ?cent\b|\d))"
+    rf"(?P<a>{NUMBER})\s*(?P<u>(?:{UNIT})\b)?\s*(?P<sign>\+|\bplus\b|\bminus\b|\bless\b|\band (?:another|an extra|an additional)\b)\s*(?P<b>{_BARE})(?:\s*(?P<v>(?:{UNIT})\b))?(?!\s*(?:/|%|per ?cent\b|\d))"
+)
+_SUM_OF_PERCENT = re.compile(
+    rf"{_ONE}\s*(?P<sign>\+|-(?= ?\d)|\bplus\b|\bminus\b|\bless\b)\s*(?P<percent>{_BARE}){_PERCENT}"
 )
 _APART = re.compile(
     rf"(?P<b>{NUMBER})\s*(?P<v>(?:{UNIT})\b) (?:(?P<more>{_MORE})|{_LESS}) than (?P<a>{NUMBER})\s*(?P<u>(?:{UNIT})\b)"
@@ -44,7 +47,12 @@ _BOUND = (
     r"(?:bruis|crush|slip|slid|break|burst|squash)\w* (?:at|from))"
 )
 _VALUE = r"(?:with|use|using|apply|but|make it|aim(?:ing)? (?:for|at)|(?:target|goal|force)(?: of| to| is)?|grip (?:of|at)|at a force of)"
-_BEFORE = rf"(?:\b(?:{_BOUND}|{_VALUE})(?: a force of| about| around| roughly)?|[<>≤≥])\s*[:=]?\s*"
+_ROUGHLY = r"(?: a force of| about| around| roughly)?"
+BEFORE_BOUND = rf"(?:\b{_BOUND}{_ROUGHLY}|[<>≤≥])\s*[:=]?\s*"
+"""What stands before a number that bounds a force."""
+BEFORE_VALUE = rf"\b{_VALUE}{_ROUGHLY}\s*[:=]?\s*"
+"""What stands before a number that is a force."""
+_BEFORE = rf"(?:{BEFORE_BOUND}|{BEFORE_VALUE})"
 _AFTER = r"(?=\s*(?:$|[.,;:!?)](?![\d.])|(?:and|but|or|yet|please|then|(?:will|would)(?= (?:bruis|crush|hurt|damag|slip|break|squash))|is|bruis\w*|crush\w*|at (?:the )?(?:most|least)|max(?:imum)?|min(?:imum)?)\b))"
 _HALVES = (
     re.compile(rf"(?<!in )(?:\ban? |\b1 )?\bhalf(?= ?(?:-|–|to|and|or|up to) {_ONE})"),
@@ -80,11 +88,13 @@ def written_out(text: str) -> tuple[str, str]:
     Returns:
         The text, and the first number that stands where a force would without one; '' for none.
     """
+    while (summed := _SUM.sub(_added, text)) != text:
+        text = summed
     for pattern, reckoned in (
-        (_SUM, _added),
+        (_SUM_OF_PERCENT, _related),
         (_APART, _added),
-        (_MULTIPLE, _multiplied),
         (_RELATIVE, _related),
+        (_MULTIPLE, _multiplied),
     ):
         text = pattern.sub(reckoned, text)
     text = _with_multiples_of_that(text)
@@ -113,7 +123,7 @@ def _added(match: re.Match[str]) -> str:
     if unit is None:
         return match[0]
     said = match.groupdict()
-    is_less = said.get("sign") == "minus" or ("sign" not in said and not said["more"])
+    is_less = said.get("sign") in ("minus", "less") or ("sign" not in said and not said["more"])
     other = number(match["b"]) * in_newtons("1", match["v"] or unit) / in_newtons("1", unit)
     return f"{number(match['a']) + (-other if is_less else other):.6g} {unit}"
 
@@ -140,11 +150,17 @@ def _multiplied(match: re.Match[str]) -> str:
         factor = (int(count) if count.isdigit() else 1) / _PARTS[match["part"]]
     else:
         factor = number(match["times"]) if match["times"] else number(match["percent"]) / 100
+    if factor < 1 and (match["more"] or match["less"]):
+        factor = 1 + factor if match["more"] else 1 - factor  # 'a third less than 1 N'
+    elif match["less"]:
+        factor = 1 / factor
     return f"{factor * number(match['a']):.6g} {match['u']}"
 
 
 def _related(match: re.Match[str]) -> str:
-    percent = number(match["percent"]) * (1 if match["more"] else -1)
+    said = match.groupdict()
+    is_more = said["sign"] in ("+", "plus") if "sign" in said else bool(said["more"])
+    percent = number(match["percent"]) * (1 if is_more else -1)
     return f"{(1 + percent / 100) * number(match['a']):.6g} {match['u']}"
 
 

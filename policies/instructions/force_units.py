@@ -1,6 +1,6 @@
 """Units of force in words, and numbers that stand before them.
 
-N, kN, mN, cN, grams, kilograms, pounds and ounces of force, spelled as people spell them.
+N with its prefixes, dynes, grams, kilograms, pounds and ounces of force, spelled as people spell them.
 """
 
 from __future__ import annotations
@@ -22,9 +22,13 @@ POUND_N, OUNCE_N = 453.59237 * GRAM_N, 28.349523 * GRAM_N
 UNITS: tuple[tuple[str, float], ...] = (
     (r"(?:kilo-?\s?newtons?|kn)", 1000.0),
     (r"(?:mill?i-?\s?n[ew]+t[a-z]{0,3}ns?|mn)", 1e-3),
+    (r"(?:micro-?\s?newtons?|[µμu]n)", 1e-6),
+    (r"(?:de[ck]a-?\s?newtons?|dan)", 10.0),
+    (r"(?:deci-?\s?newtons?|dn)", 0.1),
+    (r"(?:dyn(?:e|es|s)?)", 1e-5),
     (r"(?:centi-?\s?newtons?|cn)", 1e-2),
     (r"(?:n[ew]+t[a-z]{0,3}ns?|netwons?|newtos?|n)", 1.0),
-    (rf"(?:{_KILO}{_OF_FORCE}|kgf|{_KILO}[ -]f(?:orce)?|kilo(?:gram)?-?force|kiloponds?)", 1000 * GRAM_N),
+    (rf"(?:{_KILO}{_OF_FORCE}|kgf|{_KILO}[ -]f(?:orce)?|kilo(?:gram)?-?force|kiloponds?|kp)", 1000 * GRAM_N),
     (rf"(?:{_GRAM}{_OF_FORCE}|{_GRAM}[ -]weight|gf|{_GRAM}[ -]f(?:orce)?|gram-?force|ponds?)", GRAM_N),
     (rf"(?:{_POUND}{_OF_FORCE}|lbf)", POUND_N),
     (rf"(?:{_OUNCE}{_OF_FORCE}|ozf)", OUNCE_N),

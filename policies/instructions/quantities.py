@@ -1,7 +1,7 @@
 """Forces that a text names, in newtons: each a value, a most or a least.
 
-Read are N, kN, mN, grams, kilograms, pounds and ounces of force, in digits and in words, ranges,
-factors on the task's force, and lengths with what they bound. Not here: manner.
+Read are newtons with prefixes, grams, kilograms, pounds and ounces of force, in digits and in words,
+with tolerances, ranges, factors on the task's force, and lengths with what they bound. Not here: manner.
 """
 
 from __future__ import annotations
@@ -14,6 +14,13 @@ from typing import Literal
 from policies.instructions.elisions import written_out
 from policies.instructions.force_units import ALONE, LOOSE, NUMBER, UNIT, in_newtons, number
 from policies.instructions.numerals import in_digits
+from policies.instructions.tolerances import (
+    TOLERANCE,
+    band_of,
+    with_plain_tolerances,
+    without_lone,
+)
+from policies.instructions.unknown_units import unknown_force
 
 MARK = "#"
 """Stands for a quantity in the rest of a text."""
@@ -29,11 +36,13 @@ class Force:
         kind: A value to hold with, the most, or the least.
         value_n: The force [N].
         words: The words that name it.
+        within_n: Lowest and highest force of a stated tolerance [N]; None where none is stated.
     """
 
     kind: Kind
     value_n: float
     words: str
+    within_n: tuple[float, float] | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -49,7 +58,10 @@ class Quantities:
         area_fraction: Part of the pad in contact that is named; None where none is.
         pressure: Words of a pressure that is named in place of a force; '' for none.
         unitless: A number that stands where a force would, without a unit; '' for none.
-        percentage: A percentage of nothing, where a force would stand; '' for none.
+        unread: Why a number that stands where a force would is none that can be read ('1 Nm');
+            '' for none.
+        percentage: A percentage or tolerance of nothing, where a force would stand; '' for none.
+        place: Words about the place on the pad, which are not read; '' for none.
         denied: Words of a force that is not to be used, where no other one is named; '' for none.
         rest: The plain text with each quantity and its relation replaced by ``MARK``.
     """
@@ -63,7 +75,9 @@ class Quantities:
     area_fraction: float | None = None
     pressure: str = ""
     unitless: str = ""
+    unread: str = ""
     percentage: str = ""
+    place: str = ""
     denied: str = ""
     rest: str = ""
 
@@ -72,7 +86,6 @@ _SIGNED = (
     rf"(?:(?<![\w.])(?:-|minus |negative )\s?)?(?:{NUMBER}|infinite|infinity|unlimited|inf|nan)"
 )
 _LINK = r"\s*(?:-|–|—|\.\.\.?|…|,|\bup to\b|\bto\b|\bthrough\b|\btill\b|\band\b)\s*"
-_TOLERANCE = rf"\s*,?\s*(?:±|\+/?-|plus or minus|plus/minus|give or take|within)\s*(?:{NUMBER})\s*(?:%|percent|{UNIT}\b)?"
 
 _RANGE = re.compile(
     rf"(?P<pre>\b(?:betw\w*|from|within|inside|range(?: of)?|window(?: of)?|in)\s*\[?\s*|\[\s*)?"
@@ -80,13 +93,10 @@ _RANGE = re.compile(
     rf"(?P<b>{NUMBER.removeprefix(ALONE)})\s*\]?\s*-?(?P<ub>(?:{UNIT}|{LOOSE})\b)"
 )
 _FORCE = re.compile(
-    rf"\(?(?P<a>{_SIGNED})(?:\s*(?:±|\+/?-)\s*(?:{NUMBER})\s*)?\)?\s*-?\s*(?P<ua>(?:{UNIT}|{LOOSE})\b)(?:{_TOLERANCE})?"
+    rf"\(?(?P<a>{_SIGNED})(?:\s*±\s*(?P<ti>{NUMBER.removeprefix(ALONE)})\s*(?P<tip>%)?\s*)?\)?\s*-?\s*(?P<ua>(?:{UNIT}|{LOOSE})\b){TOLERANCE}"
 )
 _ELLIPSIS = re.compile(
     rf"\b(?:not|no) (?:an?|1|one|a single) (millinewton|newton|gram|mn|n|gf) (more|less)(?: than)? ({NUMBER})(?!\s*(?:{UNIT})\b)"
-)
-_MARGIN = re.compile(
-    rf"(?:,|\bwith|\band)?\s*\b(?:a |the )?(?:tolerance|margin|slack|error|accuracy|precision)(?: of| is|:)?\s*(?:±\s*)?{NUMBER}\s*(?:%|percent|(?:{UNIT})\b)"
 )
 _CHAIN = re.compile(
     rf"({NUMBER})\s*(?:{UNIT})?\s*<=?\s*(?:f|force|it|x|grip)\s*<=?\s*({NUMBER})\s*((?:{UNIT})\b)"
@@ -100,6 +110,15 @@ _PERCENT_OF_NOTHING = re.compile(
     rf"\b(?:with|at|use|using|apply|to) ({NUMBER}\s*(?:%|percent|per cent))(?=\s*(?:$|[.,;!]| please| and| force\b))"
 )
 _LENGTH = re.compile(rf"(?P<a>{NUMBER})\s*(?P<u>mm|millimet\w+|µm|μm|um|microns?|micromet\w+)\b")
+_PAD = r"(?:pads?|gels?|sensors?|sensing area|finger ?(?:tip|pad)s?)"
+_SIDE = r"(?:left|right|top|bottom|upper|lower|middle|cent(?:re|er)|edge|corner|tip|base|end)"
+_PLACE = re.compile(
+    rf"\b{_SIDE}(?: \w+){{0,2}}? (?:of|on) (?:the |your |each |both )?{_PAD}\b|"
+    rf"\b{_SIDE}[- ](?:\w+ ){{0,2}}?{_PAD}\b|"
+    r"\b(?:off-? ?cent(?:re|er)|cent(?:red|ered|ring|ering|rally)|cent(?:re|er) (?:it|the contact))\b(?:[^.;#]{0,20}\d ?(?:mm|millimet\w+))?|"
+    rf"{NUMBER}\s*(?:mm|millimet\w+)(?: \w+){{0,3}}? (?:left of|right of|off|above|below|from) (?:the )?(?:cent(?:re|er)|middle|edge)\b|"
+    rf"\b(?:contact|touch)\w*(?: \w+){{0,4}} (?:left|right|edge|corner|middle)\b"
+)
 _AREA = re.compile(
     rf"(?P<a>{NUMBER})\s*(?:%|percent|per cent) (?:of )?(?:the )?(?:\w+ )?(?:pad|area|gel|sensor)"
 )
@@ -238,9 +257,11 @@ def read_quantities(text: str) -> Quantities:
     text = re.sub(r"(?<=\d)['\u00a0\u202f ](?=\d{3}\b(?! ?mm))", "", text)  # 1 400 mN
     text = re.sub(rf"({NUMBER})\s?-?ish\b", r"\1", text)
     text = re.sub(rf"({NUMBER}) ?\(((?:{UNIT}))\)", r"\1 \2", text)
-    text = _MARGIN.sub(" ", text)
+    text = re.sub(rf"(\d)\.\s*(?=(?:{UNIT})\b)", r"\1 ", text)  # '5. N'
+    text, lone = without_lone(with_plain_tolerances(text))
     text = _CHAIN.sub(r"between \1 and \2 \3", text)
     text = _PAIR.sub(r"between \1 and \2 \3", text)
+    unread = unknown_force(text)
     text, unitless = written_out(text)
     pressure = _PRESSURE.search(text)
     slip_mm, depth_mm = _lengths(text)
@@ -250,6 +271,7 @@ def read_quantities(text: str) -> Quantities:
     factor, factor_words, text = _factor(text)
     is_alone = factor is None and area is None
     percentage = _PERCENT_OF_NOTHING.search(text) if is_alone else None
+    place = _PLACE.search(text)
     return Quantities(
         forces=tuple(forces),
         delta_n=delta_n,
@@ -260,7 +282,9 @@ def read_quantities(text: str) -> Quantities:
         area_fraction=None if area is None else number(area["a"]) / 100,
         pressure="" if pressure is None else pressure[0],
         unitless=unitless,
-        percentage="" if percentage is None else percentage[1],
+        unread=unread,
+        percentage=lone if percentage is None else percentage[1],
+        place="" if place is None else place[0],
         denied=denied,
         rest=text,
     )
@@ -298,7 +322,7 @@ def _forces(text: str) -> tuple[list[Force], str, str]:
     denied = ""
     found: list[tuple[Force, bool]] = []  # a force, and whether it is of the past or denied
     rest, end = "", 0
-    for start, stop, ends in _matches(text):
+    for start, stop, ends, within_n in _matches(text):
         left, right = text[end:start], text[stop:]
         words = text[start:stop].strip()
         if found and len(ends) == 1 and _BETWEEN.search(" ".join(f"{rest}{left}".split())):
@@ -336,7 +360,8 @@ def _forces(text: str) -> tuple[list[Force], str, str]:
             kept = not (_PAST.search(clause) or is_denied)
             if kind == "value" and _NOT_WITH.search(left):
                 denied = words
-            found.append((Force(kind=kind, value_n=ends[0], words=words), kept))
+            force = Force(kind=kind, value_n=ends[0], words=words, within_n=within_n)
+            found.append((force, kept))
         rest, end = f"{rest}{left} {MARK} ", stop
     rest = " ".join((rest + text[end:]).split())
     kept_forces = [force for force, kept in found if kept]
@@ -354,8 +379,8 @@ def _kind_corrected(found: list[Force]) -> Kind:
     return found[-1].kind
 
 
-def _matches(text: str) -> Iterator[tuple[int, int, list[float]]]:
-    """Begin, end and forces [N] of every range and single force, in order."""
+def _matches(text: str) -> Iterator[tuple[int, int, list[float], tuple[float, float] | None]]:
+    """Begin, end, forces and tolerance [N] of every range and single force, in order."""
     at = 0
     while at < len(text):
         span = _RANGE.search(text, at)
@@ -367,11 +392,12 @@ def _matches(text: str) -> Iterator[tuple[int, int, list[float]]]:
                 span.start(),
                 span.end(),
                 [in_newtons(span["a"], first), in_newtons(span["b"], unit)],
+                None,
             )
             at = span.end()
         elif one:
             if _is_force(one, text):
-                yield one.start(), one.end(), [in_newtons(one["a"], one["ua"])]
+                yield one.start(), one.end(), [in_newtons(one["a"], one["ua"])], band_of(one)
             at = one.end()
         else:
             return
@@ -391,6 +417,8 @@ def _is_force(match: re.Match[str], text: str) -> bool:
     if not _is_loose(match["ua"]):
         return True
     left, right = text[: match.start()], text[match.end() :]
+    if not left and re.fullmatch(r"(?:,? please)?[ .!]*", right):
+        return True  # nothing else is said
     if re.search(r"\b(?:force|press\w*|squeez\w*|push\w*)\b.*\bweight of\s*$", left):
         return True
     return (
@@ -456,6 +484,7 @@ _DOWN = r"(?:less|softer|gentler|lighter|weaker|lower|below|under|looser|down|fe
 _GO_UP = r"(?:increase|raise|up|boost|turn up|crank up|bump|dial up|strengthen|tighten|add)"
 _GO_DOWN = r"(?:reduce|lower|decrease|cut|drop|turn down|dial down|ease|back off|loosen|scale back|bring down|lessen|down)"
 _FRACTION = r"(?:(?P<n>an?|one|two|three|\d) (?P<d>half|third|quarter|fifth|tenth)s?|(?P<h>half))"
+_MULTIPLE = rf"(?:(?P<x>{NUMBER})\s*(?:times|x|×)|\b(?P<w>twice|double|thrice|triple)) "
 _DENOMINATORS = {"half": 2, "third": 3, "quarter": 4, "fifth": 5, "tenth": 10}
 
 
@@ -466,6 +495,8 @@ def _factor(text: str) -> tuple[float | None, str, str]:
         (rf"\b(?:{_GO_UP}|{_UP})\b[^.;#]{{0,40}}?by (?:about |around )?(?:a )?half\b", lambda m: 1.5),
         (rf"half (?:again as {_HOW}|as {_HOW} again)", lambda m: 1.5),
         (rf"(?P<x>{NUMBER})\s*(?:times|x|×) (?:as {_HOW}|{_USUAL})(?: as)?", lambda m: number(m["x"])),
+        (rf"{_MULTIPLE}{_UP}\b", _multiple),
+        (rf"{_MULTIPLE}{_DOWN}\b", lambda m: 1 / _multiple(m) if _multiple(m) else 0.0),
         (rf"(?:twice|double|2 times|two times) (?:as {_HOW}|{_USUAL})|\bdouble (?:up )?(?:the|your)", lambda m: 2.0),
         (rf"(?:three times|triple|thrice) (?:as {_HOW}|{_USUAL})|\btriple (?:the|your)", lambda m: 3.0),
         (rf"(?:half|0\.5) as {_HOW}|\bhalf {_USUAL}|\bhalf (?:of )?{_USUAL}|\b(?:in|by) half\b|\bhalve\b|\bhalf (?:the )?(?:force|grip|strength|pressure|power|squeeze)", lambda m: 0.5),
@@ -492,6 +523,12 @@ def _factor(text: str) -> tuple[float | None, str, str]:
 
 def _percent(match: re.Match[str]) -> float:
     return number(re.findall(NUMBER, match[0])[0])
+
+
+def _multiple(match: re.Match[str]) -> float:
+    if match["x"]:
+        return number(match["x"])
+    return 2.0 if match["w"] in ("twice", "double") else 3.0
 
 
 def _part(match: re.Match[str]) -> float:

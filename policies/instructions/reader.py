@@ -78,6 +78,8 @@ _THIS_WHILE = re.compile(
 _USUAL_GRIP = re.compile(
     r"\b(?:standard|usual|normal|regular|default|same|ordinary) (?:old )?(?:grip|grasp|hold|force|pick)\b|"
     r"^(?:please |just |do )*(?:the |it )?same(?: (?:procedure|way|thing|force|grip))? as (?:usual|before|last time|always)\b|"
+    r"^(?:please |just |do )*(?:it |business )?(?:as|like) (?:usual|normal|always|before|last time|ever)\b|"
+    rf"{words.any_of('neither')}|"
     r"\bas (?:hard|firm|tight|strong|soft|gent|light|careful|delicate)\w* as (?:usual|normal|before|last time|always|needed|necessary|required|it takes|you did)\b"
 )
 _SHORT = re.compile(
@@ -130,6 +132,7 @@ def _nothing_asked(numbers: Quantities) -> str:
         or numbers.factor is not None
         or numbers.pressure
         or numbers.unitless
+        or numbers.unread
         or numbers.percentage
         or numbers.denied
     ):

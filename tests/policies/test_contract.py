@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from policies.contract import BANDS, read_contract
 from primitives import LimitError
 from primitives.contract import LIMIT_OVER_BAND, Band, Contract, ForceTerms
-from tests.fakes.contracts import PEG, STRAWBERRY, contract, peg_terms, terms
+from tests.fakes.contracts import BERRY, PEG, STRAWBERRY, contract, peg_terms, terms
 
 TASK = terms()
 MOST_N = 3 * STRAWBERRY.limit_n
@@ -119,6 +119,97 @@ def test_words_alone_may_not_name_more_than_three_times_the_tasks_limit():
     assert "--goal.force-n" in refused
     assert read(TASK.instruction, force_n=Band(low=7.5, high=8.5)).refused == ""
     assert read_contract("Hold it with 8 N.", peg_terms(), {}).refused == ""
+
+
+@given(hundredth=st.integers(701, 20000))
+def test_a_limit_alone_that_no_words_may_name_leaves_band_and_limit_to_the_task(hundredth):
+    berry = replace(TASK, force=BERRY)
+    held = read_contract(f"Hold it with at most {hundredth / 100:g} N.", berry, {})
+    assert held.terms == BERRY
+    assert read(f"At most {hundredth / 100 + 1:g} N.").terms == STRAWBERRY
+
+
+def test_such_a_limit_does_not_contradict_a_configured_band_below_it():
+    held = read("Hold it with at most 8 N.", force_n=Band(low=4.0, high=6.0))
+    assert held.terms.force_n == Band(low=4.0, high=6.0)
+    assert 0.95 * 8 <= held.terms.limit_n <= 8
+    assert 0.95 * 8 <= read("Hold it with at most 8 N.", limit_n=10.0).terms.limit_n <= 8
+
+
+def test_the_limit_of_a_named_force_is_no_more_than_words_may_name():
+    berry = replace(TASK, force=BERRY)
+    held = read_contract("Hold it with 7 N.", berry, {}).terms
+    assert (held.force_n.low, held.force_n.high) == pytest.approx((0.86 * 7, 7))
+    assert held.limit_n == pytest.approx(7)
+    assert read_contract("Three times as hard.", berry, {}).terms.limit_n == pytest.approx(7)
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["30 % more.", "Hold it firmly.", "Very firmly.", "0.3 N more than usual.", "At least 1.5 N."],
+)
+@pytest.mark.parametrize("force", [BERRY, STRAWBERRY], ids=["berry", "soft"])
+def test_asking_for_more_than_usual_never_lowers_the_limit(text, force):
+    held = read_contract(text, replace(TASK, force=force), {}).terms
+    assert held.force_n.middle > force.force_n.middle
+    assert held.limit_n >= force.limit_n
+
+
+@pytest.mark.parametrize(
+    "change", [str.upper, str.lower, lambda text: text.rstrip("."), "  {} ".format]
+)
+def test_case_spaces_and_the_full_stop_of_the_tasks_own_instruction_change_nothing(change):
+    assert read(change(TASK.instruction)).terms == STRAWBERRY
+    other = replace(TASK, others={"Grip the peg.": PEG})
+    assert read_contract(change("Grip the peg."), other, {}).terms == PEG
+
+
+@pytest.mark.parametrize(
+    ("text", "low_n", "high_n"),
+    [
+        ("1 N plus minus 20 percent", 0.8, 1.2),
+        ("1 N ± 50%", 0.5, 1.5),
+        ("3 N +/- 0.2 N", 2.8, 3.2),
+        ("2 ± 0.3 N", 1.7, 2.3),
+        ("Hold it with 2 N, with a tolerance of 0.1 N.", 1.9, 2.1),
+        ("With a tolerance of 10 %, hold it at 2 N.", 1.8, 2.2),
+        ("2 N of force, give or take 0.4", 1.6, 2.4),
+        ("2 N +0.4/-0.2 N", 1.8, 2.4),
+    ],
+)
+def test_a_stated_tolerance_is_the_band(text, low_n, high_n):
+    held = read(text)
+    assert (held.terms.force_n.low, held.terms.force_n.high) == pytest.approx((low_n, high_n))
+    assert held.terms.limit_n == pytest.approx(LIMIT_OVER_BAND * high_n)
+    assert held.assumed == ()
+
+
+def test_a_tolerance_that_can_not_be_kept_is_widened_or_refused_and_never_silently():
+    narrow = read("Hold it with 2 N ± 0.5 %.")
+    assert (narrow.terms.force_n.low, narrow.terms.force_n.high) == pytest.approx((1.9, 2.1))
+    assert "narrower than can be held" in narrow.assumed[0]
+    assert "tolerance of a bound" in read("At most 2 N ± 10 %.").assumed[0]
+    assert "belongs to no single force" in read("1 N to 2 N, within ± 5 %.").assumed[0]
+    assert "no force at all" in read("Hold it with 1 N ± 120 %.").refused
+    assert "10 % of what" in read("Hold it with a tolerance of 10 %.").refused
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "Keep the contact at the left of the pad.",
+        "Hold it centred within 1 mm.",
+        "Place the contact 3 mm to the left.",
+    ],
+)
+def test_a_place_in_words_is_said_to_be_not_read(text):
+    held = read(text)
+    assert (held.x_mm, held.y_mm) == (TASK.x_mm, TASK.y_mm)
+    assert "is not read: goal.x_mm and goal.y_mm" in held.assumed[0]
+
+
+def test_a_place_of_the_object_is_no_place_on_the_pad():
+    assert read("Grasp the berry on the left and move it 30 mm to the right.").assumed == ()
 
 
 def test_no_configuration_goes_beyond_the_gripper():

@@ -14,7 +14,7 @@ from functools import lru_cache
 from pathlib import Path
 
 from policies import Policy
-from policies.force_terms import MOST_OF_NEEDS, MOST_OF_TASK
+from policies.force_terms import most_by_words_n
 from primitives.contract import Contract
 from sim.grasp.rig import build
 from tacgrasp.benchmarks.limits.draw import ROOM, Fault, FaultKind, draw
@@ -171,9 +171,8 @@ def limit_of(contract: Contract, task: Contract) -> float:
 
     That of the task where the contract is refused.
     """
-    most = MOST_OF_NEEDS if task.needs else MOST_OF_TASK
     terms = task.terms if contract.refused else contract.terms
-    return min(terms.limit_n, most * task.terms.limit_n)
+    return min(terms.limit_n, most_by_words_n(task.terms))
 
 
 def unbounded(contract: Contract) -> Contract:

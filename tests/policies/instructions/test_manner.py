@@ -65,6 +65,10 @@ def test_firm_words_raise_the_middle_of_the_band(text):
         "Could you pick up the fruit?",
         "Grasp the one on the left and hold it.",
         "Hold the frobnicated strawberry.",
+        "As usual.",
+        "Neither harder nor softer than usual.",
+        "Neither too hard nor too soft.",
+        "Not too hard, not too soft.",
     ],
 )
 def test_words_without_manner_leave_the_band_to_the_task(text):

@@ -10,7 +10,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from policies.contract import MOST_OF_TASK, read_contract
+from policies.contract import read_contract
+from policies.force_terms import MOST_OF_TASK
 from primitives.contract import Contract
 from tests.fakes.contracts import peg_terms, terms
 

@@ -1,0 +1,67 @@
+"""Numbers that stand where a force would, and are none: their unit is unknown, or they are no number."""
+
+from __future__ import annotations
+
+import re
+from importlib import resources
+
+from policies.instructions.elisions import BEFORE_BOUND, BEFORE_VALUE
+from policies.instructions.force_units import LOOSE, NUMBER, UNIT
+
+_WORDS = frozenset(
+    re.findall(
+        r"[a-z]{2,}", (resources.files("policies.instructions") / "words.txt").read_text("utf-8")
+    )
+)
+"""Every word that instructions are read by: behind a number, one of them is no unit."""
+
+_OTHER = re.compile(
+    r"°.*|%|[kmh]?pa|psi|m?bars?|atm|[a-z]*pascals?|s|secs?|ms|mins?|h|hrs?|[a-z]*seconds?|minutes?|hours?|[kcdm]?m|[µμu]m|[a-z]*met(?:er|re)s?|"
+    r"micro\w*|inch(?:es)?|in|ft|feet|foot|deg|degrees?|c|f|k?hz|rpm|x|st|nd|rd|th|am|pm|[cm]?l|percent|per|pct|kg|kgs|pcs|pieces?|points?|steps?|"
+    r"attempts?|tries|try|trials?|repeats?|repetitions?|rounds?|runs?|goes|cycles?|frames?|retries|iterations?|cameras?|sensors?|"
+    r"taxels?|contacts?|pads?|gels?|jaws?|sides?|tips?|arms?|points?|waypoints?|layers?|levels?|jobs?|kinds?|ways?|parts?|full|whole|halves|half|thirds?|quarters?|fifths?|tenths?"
+)
+"""Other units and things that are counted."""
+
+_AFTER = rf"(?P<number>{NUMBER})\s*-?\s*(?!(?:{UNIT}|{LOOSE})\b)(?P<unit>[a-z°µμ]+)\b(?!')"
+_BOUNDED = re.compile(BEFORE_BOUND + _AFTER)
+_VALUED = re.compile(
+    rf"(?:{BEFORE_VALUE}|\b(?:hold|grip|squeeze|press|grasp)(?: it)? (?:at|to) ){_AFTER}"
+)
+_ALONE = re.compile(rf"^{_AFTER}(?=[ .!]*$)")
+_DERIVED = re.compile(
+    rf"(?P<number>{NUMBER})\s*(?P<unit>(?:{UNIT})\s?(?:[·⋅*-]\s?|\s)?(?:m|cm|mm|met(?:er|re)s?)\b|[cmk]?nm\b|"
+    rf"(?:{UNIT})\s?(?:/|per )\s?(?:s|sec(?:ond)?|[cm]?m|met(?:er|re))\b)"
+)
+"""Torques, stiffnesses, rates: a force is only a part of them."""
+
+_DIGITS = r"(?<![\w.,])\d+(?:[.,]\d+){2,}"
+_MALFORMED = re.compile(
+    rf"(?P<a>{_DIGITS})\s*(?:{UNIT})\b|(?:{BEFORE_BOUND}|{BEFORE_VALUE})(?P<b>{_DIGITS})(?![.,]?\w)"
+)
+
+
+def unknown_force(text: str) -> str:
+    """Why a number of a plain text is no force although it stands for one; '' for none.
+
+    Args:
+        text: Plain text, its numbers in digits.
+    """
+    for malformed in _MALFORMED.finditer(text):
+        digits = malformed["a"] or malformed["b"]
+        if not re.fullmatch(NUMBER, digits):
+            return f"{digits!r} is no number; say it as '1.2 N'"
+    if match := _DERIVED.search(text):
+        return _reason(match)
+    has_force = re.search(rf"{NUMBER}\s*-?\s*(?:{UNIT})\b", text) is not None
+    for pattern in (_ALONE, _BOUNDED) if has_force else (_ALONE, _BOUNDED, _VALUED):
+        for match in pattern.finditer(text):
+            unit = match["unit"]
+            if not {unit, unit.removesuffix("s")} & _WORDS and not _OTHER.fullmatch(unit):
+                return _reason(match)
+    return ""
+
+
+def _reason(match: re.Match[str]) -> str:
+    words = f"{match['number']} {match['unit']}"
+    return f"{words!r}: {match['unit']!r} is no unit of force; say N, as in '1.5 N'"
