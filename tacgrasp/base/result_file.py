@@ -1,4 +1,4 @@
-"""Files of results: whole or absent, and one line when the disk refuses one.
+"""Files of results: whole or absent, never in the place of a file of another kind.
 
 Not here: episodes (``tacgrasp.episodes.writer``), weights (``cltp.checkpoints``).
 """
@@ -11,17 +11,36 @@ from cltp.atomic_write import write_atomically
 from tacgrasp.base.errors import UsageError
 
 
-def write_result(path: Path, text: str, *, flag: str = "--out") -> None:
-    """Write a text all at once in the place of a file, or into a pipe or terminal.
+def check_ending(path: Path, *endings: str, flag: str = "--out") -> None:
+    """Check that a result goes to a file of its own kind, so that it replaces no other.
+
+    Args:
+        path: Where to; a link is followed. A pipe, a terminal or a folder passes.
+        *endings: The endings of the kind, with their dot, in small letters.
+        flag: Flag that named the path, for the message.
+
+    Raises:
+        UsageError: The path ends otherwise.
+    """
+    if path.exists() and not path.is_file():
+        return
+    if path.resolve().suffix.lower() not in endings:
+        raise UsageError(f"{flag} expects a file ending in {' or '.join(endings)}, got {path}")
+
+
+def write_result(path: Path, text: str, *, flag: str = "--json", ending: str = ".json") -> None:
+    """Write a text all at once in the place of a file of its kind, or into a pipe or terminal.
 
     Args:
         path: Where to; a link is followed.
         text: The text.
         flag: Flag that named the path, for the message.
+        ending: Ending of the file's name.
 
     Raises:
-        UsageError: It can't be written.
+        UsageError: It can't be written, or has another ending.
     """
+    check_ending(path, ending, flag=flag)
     try:
         if path.exists() and not path.is_file() and not path.is_dir():
             path.write_text(text, encoding="utf-8")

@@ -70,4 +70,4 @@ def write_figures(path: Path | None, report: Mapping[str, Any]) -> None:
         UsageError: The file can't be written.
     """
     if path is not None:
-        write_result(path, json.dumps(report, indent=2) + "\n", flag="--json")
+        write_result(path, json.dumps(report, indent=2) + "\n")

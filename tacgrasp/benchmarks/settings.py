@@ -318,8 +318,6 @@ class RobustnessSettings(ModelBenchmarkSettings, ResumableSettings):
             raise UsageError(
                 "--contacts, --episodes and --workers must be at least 1, --first-seed at least 0"
             )
-        if self.plot is not None and self.plot.suffix.lower() != ".png":
-            raise UsageError(f"--plot expects a file ending in .png, got {self.plot}")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -348,8 +346,6 @@ class OtherSimSettings(ModelBenchmarkSettings):
             raise UsageError("--contacts must be at least 1 and --first-seed at least 0")
         if self.data is not None and not self.data.is_dir():
             raise UsageError(f"--data {self.data} is not a folder")
-        if self.sheet is not None and self.sheet.suffix.lower() != ".png":
-            raise UsageError(f"--sheet expects a file ending in .png, got {self.sheet}")
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -50,9 +50,8 @@ def main(argv: Sequence[str]) -> int:
 
 def _run(module: str, values: settings.BenchmarkSettings) -> Any:
     writable(values.json)
-    writable(getattr(values, "markdown", None))
-    writable(getattr(values, "plot", None))
-    writable(getattr(values, "sheet", None))
+    for name, ending in {"markdown": ".md", "plot": ".png", "sheet": ".png"}.items():
+        writable(getattr(values, name, None), ending, flag=f"--{name}")
     from tacgrasp.console import working
 
     with working("loading the benchmark"):

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from tacgrasp.base.errors import UsageError
+from tacgrasp.base.result_file import check_ending
 from tacgrasp.cli.calibrate_gripper import parse_date
 
 if TYPE_CHECKING:
@@ -45,12 +46,13 @@ def check_ball_flags(diameter_mm: float, out: Path) -> None:
     """Check what every calibration on presses of a ball is told.
 
     Raises:
-        UsageError: No such ball, or no folder for ``out``.
+        UsageError: No such ball, no folder for ``out``, or ``out`` is no .safetensors.
     """
     if not 1.0 <= diameter_mm <= 100.0:
         raise UsageError(f"--diameter-mm must be 1 to 100, got {diameter_mm}")
     if not out.parent.is_dir():
         raise UsageError(f"--out {out}: {out.parent} is no folder")
+    check_ending(out, ".safetensors")
 
 
 def run(flags: CalibrateGainsFlags) -> int:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from tacgrasp.base.errors import UsageError
+from tacgrasp.base.result_file import check_ending
 
 
 @dataclass(frozen=True)
@@ -85,5 +86,6 @@ def _check(flags: CalibrateSlipFlags) -> None:
         raise UsageError(f"--hold-s must be 1 to 60, got {flags.hold_s:g}")
     if not flags.out.parent.is_dir():
         raise UsageError(f"--out {flags.out}: {flags.out.parent} is no folder")
+    check_ending(flags.out, ".json")
     if flags.out.exists() and not flags.overwrite:
         raise UsageError(f"{flags.out} exists and is kept; give --overwrite, or another file")

@@ -12,7 +12,7 @@ import tyro
 
 from cltp.atomic_write import replacing
 from tacgrasp.base.errors import UsageError
-from tacgrasp.base.result_file import write_result
+from tacgrasp.base.result_file import check_ending, write_result
 from tacgrasp.cli.flags import writable
 
 if TYPE_CHECKING:
@@ -46,8 +46,8 @@ def inspect(flags: InspectFlags) -> None:
     from tacgrasp.datasets.contact_sheet import contact_card
     from tacgrasp.datasets.inspect import lines_of
 
-    if flags.out is not None and flags.out.suffix.lower() != ".png":
-        raise UsageError(f"--out expects a file ending in .png, got {flags.out}")
+    if flags.out is not None:
+        check_ending(flags.out, ".png")
     data = ContactDataset(flags.folder, partial=True)
     if not 0 <= flags.contact < len(data):
         raise UsageError(
@@ -80,11 +80,11 @@ def stats(flags: StatsFlags) -> None:
     from tacgrasp.datasets.stats import as_json, show
     from tacgrasp.datasets.stats import stats as count
 
-    figures = count(flags.folder)
     path = writable(flags.json)
+    figures = count(flags.folder)
     show(figures, make_console())
     if path is not None:
-        write_result(path, json.dumps(as_json(figures), indent=2) + "\n", flag="--json")
+        write_result(path, json.dumps(as_json(figures), indent=2) + "\n")
 
 
 @dataclass(frozen=True)
@@ -174,6 +174,7 @@ def gallery(flags: GalleryFlags) -> None:
     from tacgrasp.console import make_console
     from tacgrasp.datasets.gallery import write_gallery
 
+    check_ending(flags.out, ".html")
     _, indices = flags.draw()
     _save(lambda path: write_gallery(flags.folder, indices, path, seed=flags.seed), flags.out)
     size = flags.out.stat().st_size / 1e6

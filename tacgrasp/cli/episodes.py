@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import tyro
 
 from tacgrasp.base.errors import UsageError
+from tacgrasp.base.result_file import check_ending
 from tacgrasp.cli.flags import run_subcommand
 
 if TYPE_CHECKING:
@@ -127,6 +128,7 @@ def _plot(flags: PlotFlags) -> None:
     from tacgrasp.episodes.plot import plot_episode
 
     png = flags.out or flags.episode.with_suffix(".png")
+    check_ending(png, ".png")
     plot_episode(flags.episode, png)
     make_console().print(f"drawn: {png}")
 
@@ -147,6 +149,7 @@ def _export(flags: ExportFlags) -> None:
             episodes = [read_episode(path) for path in flags.episodes]
             write_lerobot(episodes, out, language=flags.language)
         else:
+            check_ending(out, f".{flags.to}")
             episode = read_episode(first)
             write = _writer(flags.to)
             try:

@@ -38,7 +38,7 @@ def main(argv: Sequence[str]) -> int:
         scores = evaluate(weights, request, report)
     show(scores, make_table_console())
     if json_path is not None:
-        write_result(json_path, json.dumps(scores, indent=1) + "\n", flag="--json")
+        write_result(json_path, json.dumps(scores, indent=1) + "\n")
     if request.card:
         write_scores(weights, scores)
     return 0

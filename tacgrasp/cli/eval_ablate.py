@@ -62,7 +62,7 @@ def main(argv: Sequence[str]) -> None:
         )
     _show(results)
     if flags.json is not None:
-        write_result(flags.json, json.dumps(results, indent=1) + "\n", flag="--json")
+        write_result(flags.json, json.dumps(results, indent=1) + "\n")
 
 
 def _show(results: Mapping[str, Any]) -> None:

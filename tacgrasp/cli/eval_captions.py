@@ -84,7 +84,7 @@ def main(argv: Sequence[str]) -> None:
         import json
 
         figures = {result.method: dict(result.values) for result in results}
-        write_result(flags.json, json.dumps(figures, indent=1) + "\n", flag="--json")
+        write_result(flags.json, json.dumps(figures, indent=1) + "\n")
 
 
 def _show(results: Sequence[Result]) -> None:

@@ -78,4 +78,4 @@ def main(argv: Sequence[str]) -> None:
         ]
         report = {"figures": figures, "instructions": rows}
         text = json.dumps(report, indent=1, ensure_ascii=False) + "\n"
-        write_result(flags.json, text, flag="--json")
+        write_result(flags.json, text)

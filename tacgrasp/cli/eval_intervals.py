@@ -66,7 +66,7 @@ def main(argv: Sequence[str]) -> None:
         )
     _show(found["groups"])
     if flags.json is not None:
-        write_result(flags.json, json.dumps(found, indent=1) + "\n", flag="--json")
+        write_result(flags.json, json.dumps(found, indent=1) + "\n")
 
 
 def _show(groups: dict[str, Any]) -> None:

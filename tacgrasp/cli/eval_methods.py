@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from tacgrasp.base.errors import UsageError
+from tacgrasp.base.result_file import check_ending
 from tacgrasp.cli.eval_ablate import main as ablate
 from tacgrasp.cli.eval_captions import main as captions
 from tacgrasp.cli.eval_instructions import main as instructions
@@ -254,6 +255,10 @@ def _checked(flags: EvaluationFlags) -> Path | None:
         raise UsageError(f"--threads must be at least 1, got {flags.threads}")
     if not isinstance(flags, RealTouchFlags) or flags.real is None:
         contacts_in(flags.data, command="tacgrasp data generate")
+    if isinstance(flags, RealTouchFlags):
+        check_ending(flags.out, ".csv")
+    if isinstance(flags, RetrievalFlags) and flags.page is not None:
+        check_ending(flags.page, ".html")
     return writable(flags.json)
 
 

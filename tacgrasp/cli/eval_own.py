@@ -73,7 +73,7 @@ def main(argv: Sequence[str]) -> None:
     if flags.json is not None:
         import json
 
-        write_result(flags.json, json.dumps(figures(rows), indent=1) + "\n", flag="--json")
+        write_result(flags.json, json.dumps(figures(rows), indent=1) + "\n")
 
 
 def _show(rows: Sequence[OwnScores]) -> None:

@@ -85,7 +85,7 @@ def main(argv: Sequence[str]) -> None:
         columns = {"weights": str(flags.weights or "default"), "seed": flags.seed}
         report_json = columns | results | {"answers": [_plain(each) for each in answers]}
         text = json.dumps(report_json, indent=1, ensure_ascii=False) + "\n"
-        write_result(flags.json, text, flag="--json")
+        write_result(flags.json, text)
 
 
 def _show(results: dict[str, Any], answers: Sequence[ScoredAnswer], *, wrong: bool) -> None:

@@ -17,6 +17,7 @@ from pydantic import ValidationError
 from tyro import _errors as tyro_errors  # tyro's only structured errors; see pyproject's version
 
 from tacgrasp.base.errors import UsageError
+from tacgrasp.base.result_file import check_ending
 from tacgrasp.base.settings import SettingsBase
 from tacgrasp.config.errors import explain_flag, flag_of
 from tacgrasp.config.layers import leaves
@@ -150,19 +151,28 @@ def contacts_in(folder: Path, *, command: str) -> Path:
     return folder
 
 
-def writable(json_path: Path | None) -> Path | None:
+def writable(path: Path | None, *endings: str, flag: str = "--json") -> Path | None:
     """Check that a result file can be written, before minutes are spent on measuring.
 
     Nothing is left behind where there was no file.
+
+    Args:
+        path: The file; None for none.
+        *endings: Endings that its name may have; ``.json`` when none are given.
+        flag: Flag that named it, for the message.
+
+    Raises:
+        UsageError: It can't be written, or is a file of another kind.
     """
-    if json_path is None:
+    if path is None:
         return None
-    is_new = not json_path.exists()
+    check_ending(path, *(endings or (".json",)), flag=flag)
+    is_new = not path.exists()
     try:
-        with json_path.open("a", encoding="utf-8"):
+        with path.open("a", encoding="utf-8"):
             pass
         if is_new:
-            json_path.unlink()
+            path.unlink()
     except OSError as error:
-        raise UsageError(f"--json {json_path} can't be written: {error.strerror}") from None
-    return json_path
+        raise UsageError(f"{flag} {path} can't be written: {error.strerror}") from None
+    return path

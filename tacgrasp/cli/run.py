@@ -74,7 +74,7 @@ def main(argv: Sequence[str]) -> int:
         _print_config(config, sources, contract)
         return 0
     check_devices(config, allow_uncalibrated_force=flags.allow_uncalibrated_force)
-    writable(flags.events)
+    writable(flags.events, ".json", ".jsonl")
     with EventFile(flags.events) as events:
         outcome = _run(config, contract, events, flags)
     return 0 if outcome.completed else EXIT_CODES.get(outcome.reason, 1)

@@ -47,5 +47,5 @@ def main(argv: Sequence[str]) -> int:
         console.print(line)
     if flags.json is not None:
         text = json.dumps(contract_json(contract), indent=1, ensure_ascii=False)
-        write_result(flags.json, text + "\n", flag="--json")
+        write_result(flags.json, text + "\n")
     return 1 if contract.refused else 0

@@ -30,6 +30,7 @@ from sim.tcl3d.labels import in_contact, label
 from sim.tcl3d.poses import draw_pose
 from sim.tcl3d.shape_labels import name_shape
 from tacgrasp.base.errors import UsageError
+from tacgrasp.base.result_file import check_ending
 from tacgrasp.base.torch_device import usable_device
 from tacgrasp.console import make_console
 from tacgrasp.datasets.requests import PressRequest
@@ -247,8 +248,8 @@ def run(request: PressRequest) -> None:
     Raises:
         UsageError: As ``press``, or the file can't be written or is not called .npz.
     """
-    if request.out is not None and request.out.suffix.lower() != ".npz":
-        raise UsageError(f"--out expects a file ending in .npz, got {request.out}")
+    if request.out is not None:
+        check_ending(request.out, ".npz")
     result = press(request)
     area_mm2 = result.state.area_fraction * result.sensor.area_mm2
     pixels = int((result.pressure_kpa > 0).sum())

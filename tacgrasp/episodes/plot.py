@@ -46,11 +46,8 @@ def plot_episode(path: Path, png_path: Path) -> None:
     """Draw the episode in ``path`` to ``png_path``.
 
     Raises:
-        EpisodeError: The episode can't be read or has no step, or the picture can't be written or
-            is not called .png.
+        EpisodeError: The episode can't be read or has no step, or the picture can't be written.
     """
-    if png_path.suffix.lower() != ".png":
-        raise EpisodeError(f"--out expects a file ending in .png, got {png_path}")
     episode = read_episode(path)
     if not episode.steps:
         raise EpisodeError(f"{path} has no touch to draw: the run ended before its first step")

@@ -69,5 +69,5 @@ def run(settings: FaultsSettings) -> bool:
     write_figures(settings.json, {"faults": [asdict(row) for row in rows]})
     if settings.markdown is not None:
         command = f"tacgrasp bench faults --repeats {repeats}{' --load' * settings.load}"
-        write_result(settings.markdown, markdown_of(rows, command), flag="--markdown")
+        write_result(settings.markdown, markdown_of(rows, command), flag="--markdown", ending=".md")
     return passed == len(rows)

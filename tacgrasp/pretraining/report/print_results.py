@@ -64,4 +64,4 @@ def write_figures(
     """Write figures as JSON, nested as by ``report.store.nested``; nothing without a path."""
     if json_path is not None:
         text = json.dumps({**nested(grouped(results)), **(more or {})}, indent=1)
-        write_result(json_path, text + "\n", flag="--json")
+        write_result(json_path, text + "\n")

@@ -112,6 +112,61 @@ def test_a_name_of_another_format_is_refused(
     assert f"--out expects a file ending in {expected}, got x.txt" in capsys.readouterr().err
 
 
+REPORTS = {
+    "run": (["run", "--json", "{file}"], ".json or .jsonl"),
+    "understand": (["understand", "Hold it.", "--json", "{file}"], ".json"),
+    "data stats": (["data", "stats", "{made}/data", "--json", "{file}"], ".json"),
+    "data inspect": (["data", "inspect", "{made}/data", "--out", "{file}"], ".png"),
+    "data gallery": (["data", "gallery", "{made}/data", "--out", "{file}"], ".html"),
+    "episodes plot": (["episodes", "plot", "{made}/e.mcap", "--out", "{file}"], ".png"),
+    "episodes export": (
+        ["episodes", "export", "{made}/e.mcap", "--to", "parquet", "--out", "{file}"],
+        ".parquet",
+    ),
+    "bench latency": (["bench", "latency", "--ticks", "1", "--json", "{file}"], ".json"),
+    "bench draws": (["bench", "draws", "--plot", "{file}"], ".png"),
+    "bench faults": (["bench", "faults", "--markdown", "{file}"], ".md"),
+    "eval own": (["eval", "own", "--weights", "w", "--also", "a", "--json", "{file}"], ".json"),
+    "eval zero-shot": (
+        ["eval", "zero-shot", "--data", "{made}/data", "--out", "{file}"],
+        ".csv",
+    ),
+    "eval retrieval": (
+        ["eval", "retrieval", "--data", "{made}/data", "--page", "{file}"],
+        ".html",
+    ),
+    "calibrate slip": (["calibrate", "slip", "--overwrite", "--out", "{file}"], ".json"),
+}
+
+
+@pytest.mark.parametrize("name", REPORTS)
+def test_a_report_never_takes_the_place_of_a_file_of_another_kind(
+    name: str, folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    task = tmp_path / "salad_tomato.yaml"
+    task.write_text("object: cherry_tomato\n")
+    argv, ending = REPORTS[name]
+    assert main([word.format(made=folder, file=task) for word in argv]) == 2
+    assert f"expects a file ending in {ending}, got {task}" in capsys.readouterr().err
+    assert task.read_text() == "object: cherry_tomato\n"
+
+
+def test_a_link_leads_no_report_to_a_file_of_another_kind(tmp_path: Path) -> None:
+    task, link = tmp_path / "task.yaml", tmp_path / "report.json"
+    task.write_text("mine")
+    link.symlink_to(task)
+    with pytest.raises(UsageError, match=r"ending in \.json"):
+        write_result(link, "{}\n")
+    assert task.read_text() == "mine"
+
+
+def test_a_report_takes_the_place_of_an_earlier_one(tmp_path: Path) -> None:
+    report = tmp_path / "report.json"
+    report.write_text("before")
+    write_result(report, "{}\n")
+    assert report.read_text() == "{}\n"
+
+
 def test_a_result_goes_into_a_pipe_or_terminal_as_it_is(tmp_path: Path) -> None:
     write_result(Path(os.devnull), "{}\n")
     assert Path(os.devnull).is_char_device()
