@@ -22,7 +22,9 @@ on_success: hold
 on_failure: release
 """
 
-path = Path("salad_tomato.yaml")
+path = Path("own_task.yaml")
+if path.exists() and path.read_text(encoding="utf-8") != TASK:
+    raise SystemExit(f"{path} exists and is kept; run this example in another folder")
 path.write_text(TASK, encoding="utf-8")
 
 run = api.configure(str(path), policy="rules", seed=3)

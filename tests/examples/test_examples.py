@@ -59,6 +59,15 @@ def test_an_example_does_what_it_shows(name, here, monkeypatch, capsys):
     assert shown in capsys.readouterr().out
 
 
+def test_the_own_task_replaces_no_task_of_its_name(here, monkeypatch):
+    tasks = [here / name for name in ("own_task.yaml", "salad_tomato.yaml")]
+    for task in tasks:
+        task.write_text("mine")
+    with pytest.raises(SystemExit, match=r"own_task\.yaml exists and is kept"):
+        run("02_own_task.py", monkeypatch=monkeypatch)
+    assert [task.read_text() for task in tasks] == ["mine", "mine"]
+
+
 def test_the_exported_table_has_a_row_for_each_step(here, monkeypatch):
     run("07_export.py", monkeypatch=monkeypatch)
     (table,) = here.glob("*.csv")
