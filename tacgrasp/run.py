@@ -30,6 +30,7 @@ from tacgrasp.rig.factory import make_executor
 from tacgrasp.rig.gel_sense import GelSense
 from tacgrasp.rig.protocols import Rig
 from tacgrasp.runtime.outcome import EndReason, Observer, Outcome
+from tacgrasp.runtime.reflex_loop import slip_threshold
 from tacgrasp.runtime.steps import NoRecorder
 from tacgrasp.runtime.verify import accelerations, not_lifted, verify_by_lifting
 
@@ -58,12 +59,14 @@ def run_recorded(
         LimitError: The contract is refused, or the rig starts outside its workspace; nothing has
             moved.
         RobotError: The gel does not match the sensor's background; nothing has moved.
+        TouchError: The slip calibration can't be used; nothing has moved.
     """
     if not config.dry_run:
         rig.expect_untouched()
     header = _header(rig, policy, config, contract)
     sense = GelSense(rig.sensor) if feel else None
     executor = make_executor(rig, config, contract, sense)
+    slip_threshold(rig, config)  # a wrong calibration ends here, before there is a record
     directory = make_record_directory(config.record)
     path = episode_path(directory, Path(config.task).stem, header.stamp, header.seed)
     outcome: Outcome | None = None

@@ -262,15 +262,20 @@ def make_reflex(rig: Rig, executor: Executor, config: RunConfig) -> ReflexLoop |
     """The reflex of a run, with its unit's slip calibration; None where it is switched off.
 
     Raises:
-        TouchError: The calibration is damaged, or that of another sensor.
+        TouchError: The calibration is missing, damaged, or that of another sensor.
     """
-    if not config.reflex:
+    return ReflexLoop(rig, executor, slip_threshold(rig, config)) if config.reflex else None
+
+
+def slip_threshold(rig: Rig, config: RunConfig) -> float | None:
+    """Threshold of the unit's slip calibration; None: that of all units, or no reflex.
+
+    Raises:
+        TouchError: The calibration is missing, damaged, or that of another sensor.
+    """
+    if not config.reflex or config.slip_calibration is None:
         return None
-    threshold = None
-    if config.slip_calibration is not None:
-        name = rig.sensor.spec.name
-        threshold = load_slip_calibration(config.slip_calibration, name).threshold
-    return ReflexLoop(rig, executor, threshold)
+    return load_slip_calibration(config.slip_calibration, rig.sensor.spec.name).threshold
 
 
 def unfelt_slips(rig: Rig, config: RunConfig) -> str:

@@ -116,6 +116,13 @@ def test_a_refused_run_moves_nothing_and_says_so_for_people_and_machines(
     assert (end["event"], end["reason"], end["steps"]) == ("end", "refused", 0)
 
 
+def test_a_wrong_slip_calibration_begins_no_episode(tmp_path: Path, capsys: Capture) -> None:
+    record = tmp_path / "episodes"
+    argv = ["run", "--policy", "rules", "--slip-calibration", "nix.json", "--record", str(record)]
+    assert "no slip calibration at nix.json" in complaint(argv, capsys)
+    assert not record.exists()
+
+
 def test_a_run_writes_contract_steps_and_end_as_they_come(tmp_path: Path, capsys: Capture) -> None:
     path = tmp_path / "events.jsonl"
     argv = ["run", "--policy", "rules", "--seed", "1", "--record", str(tmp_path)]
