@@ -90,6 +90,8 @@ def _decide(episode: Episode, flags: ReplayFlags, console: Console) -> int:
         num_different += 1
         console.print(f"{difference.index:3d}  {difference.text}")
     verdict = "" if num_different else ": reproduced exactly"
+    if not episode.complete:
+        verdict = "; only those that could be read were decided again"
     console.print(f"{name}: {num_decisions} decisions, {num_different} differ{verdict}")
     return 1 if num_different else 0
 

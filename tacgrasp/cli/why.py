@@ -23,7 +23,7 @@ class WhyFlags:
 
 
 def main(argv: Sequence[str]) -> int:
-    """Print it; 0 when nothing went wrong, 1 when something did."""
+    """Print it; 0 when nothing went wrong, 1 when something did or the file is incomplete."""
     flags = parse(WhyFlags, argv, prog="tacgrasp why")
     from rich.text import Text
 
@@ -38,4 +38,4 @@ def main(argv: Sequence[str]) -> int:
         is_command = value.startswith("tacgrasp ")  # stays in one piece, to be copied
         for part in [line] if is_command else wrapped(line, 0, 17, width_of(console)):
             console.print(Text(part, style="bold" if name == "trouble" else ""))
-    return 0 if first_trouble(episode) is None else 1
+    return 0 if first_trouble(episode) is None and episode.complete else 1

@@ -76,14 +76,18 @@ def explain(episode: Episode, path: str) -> list[tuple[str, str]]:
         episode: The episode.
         path: Its file, for the commands that replay it.
     """
-    trouble = first_trouble(episode)
+    trouble, rows = first_trouble(episode), []
+    if not episode.complete and (trouble is None or trouble.kind != "crash"):  # which says it too
+        problem = episode.problem or "the file was not finished"
+        rows.append(("incomplete", f"{problem}; what is missing can't be judged"))
     if trouble is None:
-        end = episode.end
+        end, read = episode.end, "" if episode.complete else " in what was read"
         return [
-            ("trouble", "none: no fault, no refusal, no failed verification"),
+            *rows,
+            ("trouble", f"none{read}: no fault, no refusal, no failed verification"),
             ("end", f"{end.reason} - {end.message}" if end else ""),
         ]
-    rows = [("trouble", f"{trouble.kind}: {trouble.message}")]
+    rows.append(("trouble", f"{trouble.kind}: {trouble.message}"))
     if trouble.step is not None:
         rows += _state_rows(episode, trouble.step)
     if episode.end is not None:

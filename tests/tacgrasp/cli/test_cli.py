@@ -202,6 +202,22 @@ def test_a_truncated_episode_is_shown_as_incomplete(
     assert "incomplete: " in capsys.readouterr().out
 
 
+def test_a_damaged_episode_is_not_called_reproduced_exactly(
+    tmp_path: Path, capsys: Capture
+) -> None:
+    assert main(["run", "--policy", "rules", "--seed", "1", "--record", str(tmp_path)]) == 0
+    (whole,) = tmp_path.glob("*.mcap")
+    data = bytearray(whole.read_bytes())
+    data[len(data) // 2] ^= 0xFF
+    damaged = tmp_path / "flip.mcap"
+    damaged.write_bytes(data)
+    capsys.readouterr()
+    assert main(["replay", str(damaged), "--decide"]) == 0
+    printed = capsys.readouterr().out
+    assert "0 differ; only those that could be read were decided again" in printed
+    assert "exactly" not in printed
+
+
 def test_the_paper_demo_prints_two_lines_a_step_the_end_and_the_truth(
     tmp_path: Path, capsys: Capture
 ) -> None:

@@ -105,6 +105,26 @@ def test_a_killed_run_is_a_crash() -> None:
     assert "it ends at byte 3" in trouble.message
 
 
+def test_a_damaged_episode_is_judged_by_what_was_read_alone(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "e.mcap"
+    with EpisodeWriter(path, header()) as writer:
+        for index in range(3):
+            writer.write_step(free(index))
+        writer.finish(end())
+    assert main(["why", str(path)]) == 0
+    data = bytearray(path.read_bytes())
+    data[len(data) // 2] ^= 0xFF
+    path.write_bytes(data)
+    capsys.readouterr()
+    assert main(["why", str(path)]) == 1
+    printed = " ".join(capsys.readouterr().out.split())
+    assert "messages were read" in printed
+    assert "what is missing can't be judged" in printed
+    assert "trouble none in what was read: no fault" in printed
+
+
 def test_the_state_before_it_what_was_sent_and_the_commands_are_shown() -> None:
     step = free(
         2,
