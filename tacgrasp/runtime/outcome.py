@@ -60,7 +60,8 @@ class Outcome:
         num_steps: Number of recorded observations, those of the verification included.
         duration_s: Time from the first command to the safe state [s]; includes simulated motion.
         safe_state: State of the gripper afterwards, for people.
-        truth: Facts from the simulator just before the safe state; None on a real rig.
+        truth: Facts from the simulator just before the safe state; None on a real rig and in a dry
+            run.
         slip_minimum_n: Least true force that would have held the simulated body, centred [N]; None
             where it was not computed.
         peak_felt_n: Largest force felt at a step [N]; None when none was.

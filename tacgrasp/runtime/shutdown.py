@@ -63,9 +63,10 @@ def close(ending: Ending) -> Outcome:
         Exception: A bug in a device; the record is ended all the same.
     """
     rig, steps, end = ending.rig, ending.steps, ending.end
+    is_dry = ending.config.dry_run  # which grips nothing: there is no truth and no gain of a grip
     with delayed_interrupts():
         try:
-            truth = read_truth(rig, ending.config.verify)  # before the gripper opens
+            truth = None if is_dry else read_truth(rig, ending.config.verify)  # before it opens
         finally:
             safe_state, is_safe = _make_safe(rig, ending.config, end)
         problems = [] if is_safe else [safe_state]
@@ -85,7 +86,7 @@ def close(ending: Ending) -> Outcome:
             peak_felt_n=steps.peak_felt_n,
             force_mark=steps.force_mark,
             force_residual=steps.force_residual,
-            gain=steps.gain,
+            gain=None if is_dry else steps.gain,
             lifted=ending.verification is None or ending.verification.lifted,
         )
         refusals = _refusals(lambda: ending.recorder.finish(_episode_end(rig, outcome)))

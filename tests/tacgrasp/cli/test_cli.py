@@ -302,11 +302,17 @@ def test_a_bruised_grasp_that_touch_verified_is_not_called_a_success(
 def test_a_dry_run_decides_and_does_not_call_anything_successful(
     tmp_path: Path, capsys: Capture
 ) -> None:
-    assert main(["run", "--dry-run", "--record", str(tmp_path)]) == 0
+    events = tmp_path / "events.jsonl"
+    argv = ["run", "--dry-run", "--record", str(tmp_path), "--json", str(events)]
+    assert main(argv) == 0
     printed = capsys.readouterr().out
     assert "end: dry_run - " in printed
     assert "nothing was sent" in printed
     assert COMPLETED not in printed
+    assert "truth: " not in printed
+    assert "gripper: presses" not in printed
+    end = json.loads(events.read_text().splitlines()[-1])
+    assert (end["reason"], end["dropped"], end["peak_force_n"]) == ("dry_run", None, None)
 
 
 def test_ctrl_c_ends_a_run_with_130_and_a_closed_episode(
