@@ -111,6 +111,11 @@ def _run(config: RunConfig, contract: Contract, events: EventFile, flags: RunFla
     from tacgrasp.runtime.reflex_loop import unfelt_slips
     from tacgrasp.viewer.server import require_rerun
 
+    if config.policy == "fixed_force":  # a run's closing stops at the first touch
+        raise UsageError(
+            "--policy fixed_force never changes the force, so in a run the grip stays as light as "
+            "the first touch; compare with it by `tacgrasp bench strawberry --policies fixed_force`"
+        )
     check_policy(config.policy, config)
     check_names(config)
     if flags.view:

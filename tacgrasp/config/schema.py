@@ -93,7 +93,7 @@ class LoopConfig(SettingsBase):
     Attributes:
         max_steps: Number of executed actions before the end ``max_steps``.
         timeout_s: Time before the end ``timeout`` [s]; includes simulated motion.
-        max_asks: Number of texts in a row without one clear action before ``no_action``.
+        max_asks: Number of decisions in a row that move nothing before ``no_action``.
         max_faults: Number of failures in a row of sensor or policy before ``fault``.
         wait_s: Pause before reading and asking again [s].
     """
@@ -238,7 +238,7 @@ class RunConfig(SettingsBase):
         devices: Kind of devices, set by the rig's file: sim (simulated), emulated (real drivers on
             emulators that the run starts) or hardware.
         hardware: Drivers of emulated and real devices; in the rig's file only.
-        policy: Policy that decides: rules, llm, fixed_force, random, remote, or a plugin's.
+        policy: Policy that decides: rules, llm, random, remote, or a plugin's.
         policy_url: Address of the server that a remote policy asks (ws://host:port).
         policy_timeout_s: Longest wait for an answer of that server [s].
         policy_key_file: File with the key that the server asks for.

@@ -367,7 +367,7 @@ class Steps:
         if self._num_blanks >= self._bounds.max_asks:
             raise EndOfEpisode(
                 EndReason.NO_ACTION,
-                f"{self._num_blanks} texts in a row named no single action ({decision.reason}); "
-                f"the last was: {decision.text!r}",
+                f"{self._num_blanks} decisions in a row moved nothing ({decision.reason}); "
+                f"the last text was: {decision.text!r}",
             )
         self._rig.clock.sleep(self._bounds.wait_s)

@@ -67,6 +67,9 @@ def test_a_decision_beyond_the_contract_is_no_action_and_is_recorded_as_such(
 ) -> None:
     outcome, rig, recorder = play(Scripted(text), settings=config(max_asks=2), contract=held)
     assert outcome.reason is EndReason.NO_ACTION
+    assert outcome.message.startswith(
+        f"2 decisions in a row moved nothing (beyond the contract: {reason}"
+    )
     assert (outcome.num_actions, rig.moves) == (0, 0)
     assert rig.gripper.forces_n == [0.03]  # the first grasp
     decision = recorder.steps[0].decision
