@@ -44,7 +44,7 @@ EXIT_CODES = """\
 Exit codes:
   0    success (for run: a verified grasp)
   1    any other end of an episode, a differing decision, a demo or benchmark that failed
-  2    wrong use: unknown command, flag, field, file or value
+  2    wrong use: unknown command, flag, field, file or value, or a refused instruction
   3    fault: robot, sensor, policy or recorder failed, or a bug
   130  stopped by the operator (Ctrl-C)"""
 

@@ -32,7 +32,7 @@ class UnderstandFlags:
 
 
 def main(argv: Sequence[str]) -> int:
-    """Print one contract; 1 when it is refused."""
+    """Print one contract; 2 when it is refused, as for a run with it."""
     flags = parse(UnderstandFlags, argv, prog="tacgrasp understand")
     writable(flags.json)
     from tacgrasp.config.layers import load
@@ -48,4 +48,4 @@ def main(argv: Sequence[str]) -> int:
     if flags.json is not None:
         text = json.dumps(contract_json(contract), indent=1, ensure_ascii=False)
         write_result(flags.json, text + "\n")
-    return 1 if contract.refused else 0
+    return 2 if contract.refused else 0

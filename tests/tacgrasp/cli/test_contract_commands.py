@@ -65,7 +65,7 @@ def test_understand_says_why_it_refuses_and_what_it_understood(
     tmp_path: Path, capsys: Capture
 ) -> None:
     path = tmp_path / "contract.json"
-    assert main(["understand", "Crush the berry.", "--json", str(path)]) == 1
+    assert main(["understand", "Crush the berry.", "--json", str(path)]) == 2
     printed = capsys.readouterr().out
     assert "refused: it would destroy what is held: crush the" in printed
     assert "understood: " in printed
