@@ -114,7 +114,7 @@ def _row(path: Path) -> list[str]:
     return [
         name,
         escape(episode.header.policy),
-        str(_num_loop_steps(episode)),
+        str(len(episode.steps)),
         f"[{colour}]{escape(outcome)}[/{colour}]",
         f"{duration_s(episode):.1f} s",
     ]
@@ -127,14 +127,11 @@ def _end_text(end: EpisodeEnd) -> str:
     return ", ".join([label, *new])
 
 
-def _num_loop_steps(episode: Episode) -> int:
-    return sum(step.phase == StepPhase.LOOP for step in episode.steps)
-
-
 def _steps_text(episode: Episode) -> str:
-    num_steps = _num_loop_steps(episode)
-    num_checks = len(episode.steps) - num_steps
-    return f"{num_steps}" + (f" and {num_checks} of the verification" if num_checks else "")
+    """All steps, as a run counts them, and how many belong to the verification."""
+    num_checks = sum(step.phase != StepPhase.LOOP for step in episode.steps)
+    checks = f", {num_checks} of the verification" if num_checks else ""
+    return f"{len(episode.steps)}{checks}"
 
 
 def _truth_text(end: EpisodeEnd | None) -> str:

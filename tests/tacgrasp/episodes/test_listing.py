@@ -34,7 +34,7 @@ def test_the_list_tells_finished_unfinished_and_unreadable_apart(tmp_path: Path)
     listed = list_episodes(tmp_path)
     assert [path.name for path in listed] == ["done.mcap", "killed.mcap", "text.mcap"]
     text = shown(table(listed))
-    assert row_of(text, "done.mcap").split() == ["done.mcap", "rules", "2", "success", "6.7", "s"]
+    assert row_of(text, "done.mcap").split() == ["done.mcap", "rules", "3", "success", "6.7", "s"]
     assert "no end recorded, unfinished: recover it" in row_of(text, "killed.mcap")
     assert "is not an MCAP file" in row_of(text, "text.mcap")
 
@@ -68,7 +68,7 @@ def test_info_tells_the_instruction_the_end_and_what_to_do(tmp_path: Path) -> No
     sizes = record(path, steps)
     text = shown(info(path))
     assert "hold the 'berry' – gently" in text
-    assert "2 and 1 of the verification" in text
+    assert "3, 1 of the verification" in text
     assert "Grasp completed successfully" in text
     assert "2 × move_down" in text
     assert "held, not bruised, slip_mm 0.1, count 3" in text
