@@ -42,9 +42,11 @@ class AskFlags:
     where one can't be answered, the line says why (with --json as "error"), and the exit code is 2.
 
     Attributes:
-        file: Cloud or height map.
+        file: Cloud, height map, or a frame of the sensor's camera (.png .jpg .bmp).
         question: Question in plain English, for example "How deep is it pressed?".
         sensor: Name of the sensor that the file is from.
+        background: For a frame: a frame of the same sensor unit with an untouched gel.
+        calibration: For a frame: calibration of its sensor unit; by default the shipped one.
         goal: Least and most force of a good grasp [N], for questions such as "Safe to lift?".
         limit: Force that is never exceeded [N]; by default 1.25 times the most of --goal.
         task: Task whose contract is told to the model, instead of --goal.
@@ -58,6 +60,8 @@ class AskFlags:
     file: tyro.conf.Positional[Path]
     question: tyro.conf.Positional[str | None] = None
     sensor: str = "gelsight_mini"
+    background: Path | None = None
+    calibration: Path | None = None
     goal: tuple[float, float] | None = None
     limit: float | None = None
     task: str | None = None
@@ -86,7 +90,10 @@ def main(argv: Sequence[str]) -> int:
     from tacgrasp.playback.conversation import Conversation
     from tacgrasp.policy_factory import load_llm
 
-    cloud = read_cloud(flags.file, sensor_named(flags.sensor))
+    sensor = sensor_named(flags.sensor)
+    cloud = read_cloud(
+        flags.file, sensor, background=flags.background, calibration=flags.calibration
+    )
     with working("loading the language model"):
         policy = load_llm(flags.weights or flags.llm.dir)
     try:

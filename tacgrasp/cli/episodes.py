@@ -156,7 +156,7 @@ def _export(flags: ExportFlags) -> None:
                 with replacing(out) as part:
                     write(episode, part)
             except OSError as error:
-                raise EpisodeError(refusal(out, "write", error)) from None
+                raise EpisodeError(refusal(out, "write", error, flag="--out")) from None
     make_console().print(f"written: {out}")
 
 

@@ -27,6 +27,8 @@ class ReplayFlags:
         decide: Run a policy on the recorded clouds and report every decision that differs.
         policy: Policy that decides; by default the recorded one.
         weights: Folder of the language model's weights; by default the recorded one.
+        policy_url: Address of the server that --policy remote asks; by default the recorded one.
+        policy_key_file: File with the key that the server asks for; by default the recorded one.
         execute: Repeat the motion on the simulated arm, with a soft start and the same limits.
         verbose: Print each step whole: all of D_t, the commands as sent, the durations.
     """
@@ -35,6 +37,8 @@ class ReplayFlags:
     decide: bool = False
     policy: str | None = None
     weights: Path | None = None
+    policy_url: str | None = None
+    policy_key_file: Path | None = None
     execute: bool = False
     verbose: bool = False
 
@@ -44,9 +48,9 @@ def main(argv: Sequence[str]) -> int:
     flags = parse(ReplayFlags, argv, prog="tacgrasp replay")
     if flags.decide and flags.execute:
         raise UsageError("give --decide or --execute, one after the other")
-    for flag, value in (("--policy", flags.policy), ("--weights", flags.weights)):
-        if value is not None and not flags.decide:
-            raise UsageError(f"{flag} needs --decide")
+    for name in ("policy", "weights", "policy_url", "policy_key_file"):
+        if getattr(flags, name) is not None and not flags.decide:
+            raise UsageError(f"--{name.replace('_', '-')} needs --decide")
     from tacgrasp.console import StepPrinter, make_console, truth_text
     from tacgrasp.episodes import read_episode
     from tacgrasp.episodes.record import end_label
@@ -80,8 +84,8 @@ def _decide(episode: Episode, flags: ReplayFlags, console: Console) -> int:
 
     name = flags.policy or episode.header.policy
     config = config_of(episode, flags.episode)
-    if flags.weights is not None:
-        config = config.model_copy(update={"weights": flags.weights})
+    given = {name: getattr(flags, name) for name in ("weights", "policy_url", "policy_key_file")}
+    config = config.model_copy(update={n: each for n, each in given.items() if each is not None})
     with working(f"loading the policy {name}"):
         policy = make_policy(name, config)
     num_decisions = sum(step.decision is not None for step in episode.steps)

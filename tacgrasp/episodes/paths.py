@@ -60,16 +60,23 @@ def sync_directory(directory: Path) -> None:
         os.close(descriptor)
 
 
-def refusal(path: Path, operation: str, error: OSError) -> str:
-    """Error message for a refused file operation: the operation, its reason, and a remedy."""
+def refusal(path: Path, operation: str, error: OSError, *, flag: str = "--record") -> str:
+    """Error message for a refused file operation: the operation, its reason, and a remedy.
+
+    Args:
+        path: The file.
+        operation: What was tried (create, write).
+        error: The refusal.
+        flag: Flag that names another place.
+    """
     reason, remedy = {
-        errno.ENOENT: ("its directory does not exist", "create it or give another with --record"),
-        errno.ENOTDIR: ("its parent is not a directory", "give another directory with --record"),
+        errno.ENOENT: ("its directory does not exist", f"create it or give another with {flag}"),
+        errno.ENOTDIR: ("its parent is not a directory", f"give another directory with {flag}"),
         errno.EEXIST: ("the file exists", "episodes are never overwritten; give another name"),
-        errno.ENOSPC: ("the disk is full", "free space or record to another disk with --record"),
-        errno.EDQUOT: ("the disk quota is used up", "free space or give another --record"),
+        errno.ENOSPC: ("the disk is full", f"free space or write to another disk with {flag}"),
+        errno.EDQUOT: ("the disk quota is used up", f"free space or give another {flag}"),
         errno.EFBIG: ("the file would exceed the size limit", "raise it (ulimit -f)"),
-        errno.EROFS: ("the file system is read-only", "give another directory with --record"),
+        errno.EROFS: ("the file system is read-only", f"give another directory with {flag}"),
         errno.EACCES: ("permission denied", "make its directory writable or give another"),
     }.get(error.errno or 0, (error.strerror or str(error), "check the disk"))
     return f"can't {operation} {path}: {reason}; {remedy}"

@@ -56,7 +56,7 @@ def plot_episode(path: Path, png_path: Path) -> None:
         with replacing(png_path) as part:
             figure.savefig(part, format="png", dpi=110, facecolor="white")
     except OSError as error:
-        raise EpisodeError(refusal(png_path, "write", error)) from None
+        raise EpisodeError(refusal(png_path, "write", error, flag="--out")) from None
 
 
 def draw_episode(episode: Episode, name: str) -> Figure:

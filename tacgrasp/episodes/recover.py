@@ -54,7 +54,7 @@ def recover(path: Path, out: Path | None = None) -> str:
             original = path if out is not None else _set_aside(path)
         sync_directory(target.parent)
     except OSError as error:
-        raise EpisodeError(refusal(target, "write", error)) from None
+        raise EpisodeError(refusal(target, "write", error, flag="--out")) from None
     return f"{target}: {num_steps} steps recovered; {path.name}: {scan.problem}; kept as {original}"
 
 

@@ -82,7 +82,7 @@ def write_lerobot(episodes: Sequence[Episode], folder: Path, *, language: bool =
         part.rename(folder)
     except OSError as error:
         shutil.rmtree(part, ignore_errors=True)
-        raise EpisodeError(refusal(folder, "write", error)) from None
+        raise EpisodeError(refusal(folder, "write", error, flag="--out")) from None
     return int(table.num_rows)
 
 

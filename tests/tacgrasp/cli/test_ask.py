@@ -9,6 +9,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 import torch
+from PIL import Image
 
 from cltp.encoder.reader import Flag
 from cltp.llm.constrained.grammar import Grammar, match
@@ -105,6 +106,16 @@ def test_a_question_is_read_in_plain_words_and_answered_on_what_is_felt(
     assert main(["ask", touch, "How deep's it, please?"]) == 0
     assert capsys.readouterr().out == "0.19 mm.\n"
     assert talker.prompts == ["how deep's it please"]
+
+
+def test_a_frame_is_read_beside_the_frame_of_its_untouched_gel(
+    talker: Writer, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    frame = str(tmp_path / "frame.png")
+    Image.fromarray(np.full((240, 320, 3), 100, np.uint8)).save(frame)
+    assert main(["ask", frame, "How deep?"]) == 2
+    assert "as --background" in capsys.readouterr().err
+    assert main(["ask", frame, "How deep?", "--background", frame]) == 0
 
 
 def test_goal_limit_and_mass_are_told(

@@ -112,6 +112,7 @@ def test_without_a_command_the_usage_is_printed_and_it_is_wrong_use() -> None:
         (["replay"], "EPISODE|PATH"),
         (["replay", "no.mcap"], "no.mcap does not exist"),
         (["replay", "no.mcap", "--policy", "rules"], "--policy needs --decide"),
+        (["replay", "no.mcap", "--policy-url", "ws://127.0.0.1:1"], "--policy-url needs --decide"),
         (["replay", "no.mcap", "--decide", "--execute"], "one after the other"),
         (["episodes"], "expects one of ls, info, recover, plot, export, got nothing"),
         (["episodes", "rm"], "got 'rm'"),
@@ -265,6 +266,13 @@ def test_another_policy_differs_and_says_where(episode: Path, capsys: Capture) -
     printed = capsys.readouterr().out
     assert "action: 'move_down' then, None now" in printed
     assert "4 decisions, 4 differ" in printed
+
+
+def test_deciding_again_asks_the_server_that_is_named(episode: Path, capsys: Capture) -> None:
+    argv = ["replay", "--decide", "--policy", "remote", str(episode)]
+    assert "--policy remote needs --policy-url" in complaint(argv, capsys)
+    argv += ["--policy-url", "ws://127.0.0.1:9"]
+    assert "127.0.0.1:9" in complaint(argv, capsys, code=3)
 
 
 def test_executing_again_reaches_the_recorded_poses(episode: Path, capsys: Capture) -> None:

@@ -153,5 +153,5 @@ def test_a_picture_that_can_not_be_made_is_a_clear_error(tmp_path: Path) -> None
     with pytest.raises(EpisodeError, match="no touch to draw"):
         plot_episode(tmp_path / "none.mcap", tmp_path / "e.png")
     record(tmp_path / "e.mcap", [step_record(0)])
-    with pytest.raises(EpisodeError, match=r"can't write .*does not exist"):
+    with pytest.raises(EpisodeError, match=r"can't write .*does not exist; .*with --out"):
         plot_episode(tmp_path / "e.mcap", tmp_path / "missing" / "e.png")
