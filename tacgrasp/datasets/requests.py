@@ -97,7 +97,8 @@ class PressRequest:
         object: ball:DIAMETER, cylinder:DIAMETER (lying along x) or flat:EDGE (square), in mm; or
             the name of an object of the catalogue, in a random pose.
         depth_mm: Depth of the object's tip below the undeformed surface [mm].
-        sensor: Sensor: gelsight_mini, gelsight_r15, digit or gelstereo.
+        sensor: Sensor: gelsight_mini, gelsight_mini_markers, gelsight_r15, digit, gelstereo or
+            taxels.
         x_mm: Position of the tip, positive to the right of the pad's centre [mm].
         y_mm: Position of the tip, positive towards the top of the pad [mm].
         turn_deg: Rotation of the object in the plane of the pad [deg].

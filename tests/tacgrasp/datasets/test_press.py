@@ -6,6 +6,7 @@ import pytest
 from cltp.tactile.cloud import grid_axes_mm
 from cltp.tactile.sensors import SENSORS
 from tacgrasp.__main__ import main
+from tacgrasp.datasets.requests import PressRequest
 
 MINI = SENSORS["gelsight_mini"]
 BALL = ["simulate", "press", "--object", "ball:9.5", "--depth-mm", "0.8"]
@@ -160,3 +161,7 @@ def test_a_file_that_can_t_be_written_leaves_nothing_behind(tmp_path, capsys):
     assert main([*BALL, "--grid", "80x60", "--out", str(folder)]) == 2
     assert "can't be written" in capsys.readouterr().err
     assert [path.name for path in tmp_path.iterdir()] == ["a.npz"]
+
+
+def test_the_help_names_every_sensor():
+    assert all(name in PressRequest.__doc__ for name in SENSORS)
