@@ -220,7 +220,7 @@ def _calibration(settings: DynamixelSettings, folder: Path, adapter: str) -> Fin
     try:
         calibration = load_calibration(folder / settings.calibration)
     except RobotError as error:
-        return _finding("calibration", False, f"{error}", ADVICE)
+        return _finding("calibration", False, str(error).removesuffix(f"; {ADVICE}"), ADVICE)
     reason = refusal(calibration, settings, adapter=adapter, today=today)
     detail = (
         f"of {calibration.date}, {(today - calibration.date).days} days old, "

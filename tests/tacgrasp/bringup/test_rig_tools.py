@@ -61,6 +61,8 @@ def test_what_is_wrong_is_told_with_what_to_do(tmp_path, capsys):
     wrong = [line for line in lines if " NOT OK " in line]
     assert {line.split()[0] for line in wrong} == {"arm", "gripper", "sensor"}
     assert all(" | " in line for line in wrong)
+    (calibration,) = (line for line in wrong if line.startswith("gripper  calibration"))
+    assert calibration.count("tacgrasp calibrate gripper") == 1
     assert lines[-1].endswith("the rig is not fit to run")
 
 
