@@ -85,9 +85,13 @@ def read_header(folder: Path) -> dict[str, Any]:
     path = folder / "dataset.json"
     try:
         header = json.loads(path.read_text())
+    except NotADirectoryError:
+        raise TouchError(f"{folder} is a file; expected the folder of a data set") from None
     except FileNotFoundError:
         raise TouchError(f"{folder} is no data set of contacts: dataset.json is missing") from None
-    except (OSError, ValueError) as error:
+    except OSError as error:
+        raise TouchError(f"{path} can't be read: {error.strerror or error}") from None
+    except ValueError as error:
         raise TouchError(f"{path} can't be read: {error}") from error
     if not isinstance(header, dict) or header.get("format") != FORMAT:
         raise TouchError(f"{path} does not describe a {FORMAT} data set")

@@ -57,10 +57,10 @@ def read_cloud(
     """
     if path.suffix.lower() in FRAME_SUFFIXES:
         heights = _frame_heights(path, sensor, background, calibration)
-        with _path_in_errors(path):
+        with path_in_errors(path):
             return cloud_from_heights(heights, sensor)
     array = _read_array(path)
-    with _path_in_errors(path):
+    with path_in_errors(path):
         return _cloud_of(array, sensor)
 
 
@@ -85,13 +85,14 @@ def read_heights(
     if path.suffix.lower() in FRAME_SUFFIXES:
         return _frame_heights(path, sensor, background, calibration)
     array = _read_array(path)
-    with _path_in_errors(path):
+    with path_in_errors(path):
         cloud = _cloud_of(array, sensor)
         return array.astype(np.float32) if array.shape[1] != 3 else _surface(cloud)
 
 
 @contextmanager
-def _path_in_errors(path: Path) -> Iterator[None]:
+def path_in_errors(path: Path) -> Iterator[None]:
+    """Name the file in a ``TouchError`` of the block, which is about its content."""
     try:
         yield
     except TouchError as error:
@@ -118,21 +119,23 @@ def _read_array(path: Path) -> NDArray[np.float64]:
         ".npy": read_npy,
         ".npz": read_npz,
     }
+    if path.is_dir():
+        raise TouchError(f"{path} is a directory; name a file in it")
     reader = readers.get(path.suffix.lower())
     if reader is None:
         raise TouchError(
             f"{path}: expected a file ending in {', '.join((*readers, *FRAME_SUFFIXES))}, "
-            f"got {path.suffix or 'none'!r}"
+            f"got {path.suffix or 'no ending'}"
         )
     if not path.is_file():
-        raise TouchError(f"{path} {'is a directory' if path.is_dir() else 'does not exist'}")
+        raise TouchError(f"{path} does not exist")
     size = path.stat().st_size
     if size == 0:
         raise TouchError(f"{path} is empty; expected a cloud or a height map")
     if size > MAX_FILE_BYTES:
         raise TouchError(f"{path} has {size} bytes; at most {MAX_FILE_BYTES} are read")
     try:
-        with _path_in_errors(path):
+        with path_in_errors(path):
             return reader(path.read_bytes())
     except OSError as error:
         raise TouchError(f"{path} can't be read: {error.strerror or error}") from None
@@ -151,7 +154,7 @@ def _frame_heights(
             "give a frame of the same unit with nothing touching it as --background"
         )
     net = load_calibration(calibration or default_calibration(sensor), sensor).net
-    with _path_in_errors(path):
+    with path_in_errors(path):
         return heights_of_frame(frame, read_frame(background, sensor), net, sensor)
 
 

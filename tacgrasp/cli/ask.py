@@ -84,7 +84,7 @@ def main(argv: Sequence[str]) -> int:
     """Answer one question, or those of a dialogue."""
     flags = parse(AskFlags, argv, prog="tacgrasp ask")
     contract = _contract(flags)
-    from cltp.sensing.touch_files import read_cloud
+    from cltp.sensing.touch_files import path_in_errors, read_cloud
     from cltp.tactile.sensors import sensor_named
     from tacgrasp.console import make_console, working
     from tacgrasp.playback.conversation import Conversation
@@ -97,7 +97,8 @@ def main(argv: Sequence[str]) -> int:
     with working("loading the language model"):
         policy = load_llm(flags.weights or flags.llm.dir)
     try:
-        talk = Conversation(cloud, policy.talker, contract=contract, mass_g=flags.mass)
+        with path_in_errors(flags.file):
+            talk = Conversation(cloud, policy.talker, contract=contract, mass_g=flags.mass)
     except ValueError as error:
         raise UsageError(f"--mass: {error}") from None
     console = make_console()

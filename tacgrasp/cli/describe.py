@@ -44,7 +44,7 @@ class DescribeFlags:
 def main(argv: Sequence[str]) -> int:
     """Describe one file."""
     flags = parse(DescribeFlags, argv, prog="tacgrasp describe")
-    from cltp.sensing.touch_files import read_cloud
+    from cltp.sensing.touch_files import path_in_errors, read_cloud
     from cltp.tactile.contact.raised_pad import is_raised
     from cltp.tactile.sensors import sensor_named
     from tacgrasp.config.layers import load
@@ -66,13 +66,15 @@ def main(argv: Sequence[str]) -> int:
         background=flags.background,
         calibration=flags.calibration,
     )
+    with path_in_errors(flags.file):
+        touched = is_touched(cloud)
     if flags.json:
         reader = make_reader(flags.weights or default_weights())
         sys.stdout.write(json.dumps(describe_in_numbers(cloud, reader), indent=2) + "\n")
         return 0
     for line in describe(cloud):
         console.print(line)
-    if is_raised(cloud) or not is_touched(cloud):
+    if is_raised(cloud) or not touched:
         return 0
     weights = flags.weights or default_weights()
     if weights == shipped_weights() and not weights.is_dir():

@@ -141,6 +141,9 @@ def test_truncated_heights_and_a_foreign_index_are_refused(folder: Path) -> None
 def test_other_folders_and_versions_are_refused(folder: Path, tmp_path: Path) -> None:
     with pytest.raises(TouchError, match=r"dataset\.json is missing"):
         ContactDataset(tmp_path)
+    (tmp_path / "empty.yaml").write_text("")
+    with pytest.raises(TouchError, match=r"empty\.yaml is a file; expected the folder"):
+        ContactDataset(tmp_path / "empty.yaml")
     header = json.loads((folder / "dataset.json").read_text())
     (folder / "dataset.json").write_text(json.dumps({**header, "version": 99}))
     with pytest.raises(TouchError, match="version 99"):

@@ -209,6 +209,7 @@ def test_a_missing_file_and_a_directory_are_refused(tmp_path: Path) -> None:
     assert "does not exist" in touch_error(tmp_path / "missing.ply")
     (tmp_path / "folder.ply").mkdir()
     assert "is a directory" in touch_error(tmp_path / "folder.ply")
+    assert "is a directory" in touch_error(tmp_path)
 
 
 def test_a_truncated_npy_is_refused(tmp_path: Path) -> None:

@@ -118,6 +118,14 @@ def test_a_frame_is_read_beside_the_frame_of_its_untouched_gel(
     assert main(["ask", frame, "How deep?", "--background", frame]) == 0
 
 
+def test_heights_of_the_wrong_sign_name_their_file(
+    talker: Writer, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    np.save(tmp_path / "neg.npy", -bump(1.0, -2.0, 0.5))
+    assert main(["ask", str(tmp_path / "neg.npy"), "How deep?"]) == 2
+    assert "neg.npy: the gel rises" in capsys.readouterr().err
+
+
 def test_goal_limit_and_mass_are_told(
     talker: Writer, touch: str, capsys: pytest.CaptureFixture[str]
 ) -> None:

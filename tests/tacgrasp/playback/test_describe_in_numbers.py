@@ -165,3 +165,12 @@ def test_a_pad_that_is_pressed_all_over_is_flagged_and_not_called_untouched(
     assert "unreadable: the whole pad is raised" in describe(pressed)[-1]
     assert Flag.RAISED in reader.read(pressed).flags
     assert Flag.RAISED not in reader.read(cloud()).flags
+
+
+@pytest.mark.parametrize("argv", [["describe"], ["describe", "--json"]])
+def test_heights_of_the_wrong_sign_name_their_file(argv, tmp_path, capsys) -> None:
+    np.save(tmp_path / "neg.npy", -bump(1.0, -2.0, 0.5))
+    assert main([*argv, str(tmp_path / "neg.npy")]) == 2
+    error = capsys.readouterr().err
+    assert "neg.npy: the gel rises" in error
+    assert error.count("\n") == 1
