@@ -72,14 +72,15 @@ def _measured_axes(flags: CalibratePadAxesFlags, rig_name: str) -> execution.Pad
     from tacgrasp.bringup.pad_axes import find_pad_axes
     from tacgrasp.config.layers import load
     from tacgrasp.console import make_console
-    from tacgrasp.rig.factory import make_rig
+    from tacgrasp.rig.factory import make_centred_rig, make_rig
 
     config, _ = load(None, rig_name, os.environ)
     hardware = None if config.hardware is None else config.hardware.without_start_pose()
     config = config.model_copy(
         update={"object": flags.object, "seed": flags.seed, "hardware": hardware}
     )
-    console, rig = make_console(), make_rig(config)
+    console = make_console()
+    rig = make_rig(config) if config.devices == "hardware" else make_centred_rig(config)
     try:
         measured = find_pad_axes(
             rig,
