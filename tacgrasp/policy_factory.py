@@ -144,6 +144,26 @@ def check_policy(name: str, config: RunConfig) -> None:
         )
 
 
+def check_run_policy(config: RunConfig) -> None:
+    """Check the policy of a run and the folder that it is given, before anything heavy is loaded.
+
+    Raises:
+        UsageError: As for ``check_policy``; or the policy can't grasp in a run; or the folder does
+            not exist, which a policy without weights would not notice.
+    """
+    name, weights = config.policy, config.weights_folder
+    if name == "fixed_force":  # a run's closing stops at the first touch
+        raise UsageError(
+            "--policy fixed_force never changes the force, so in a run the grip stays as light as "
+            "the first touch; compare with it by `tacgrasp bench strawberry --policies fixed_force`"
+        )
+    check_policy(name, config)
+    if weights is not None and not weights.is_dir():
+        raise UsageError(
+            f"--weights {weights} is not a folder; leave it out, since --policy {name} needs none"
+        )
+
+
 def make_policy(name: str, config: RunConfig) -> Policy:
     """Build the policy called ``name``.
 

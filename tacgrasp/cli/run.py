@@ -105,18 +105,13 @@ def _run(config: RunConfig, contract: Contract, events: EventFile, flags: RunFla
     from tacgrasp.config.terms import contract_lines
     from tacgrasp.console import end_lines, make_console, width_of, working, wrapped
     from tacgrasp.episodes.paths import check_record_directory
-    from tacgrasp.policy_factory import check_policy
+    from tacgrasp.policy_factory import check_run_policy
     from tacgrasp.rig.factory import check_names
     from tacgrasp.run import run_recorded
     from tacgrasp.runtime.reflex_loop import unfelt_slips
     from tacgrasp.viewer.server import require_rerun
 
-    if config.policy == "fixed_force":  # a run's closing stops at the first touch
-        raise UsageError(
-            "--policy fixed_force never changes the force, so in a run the grip stays as light as "
-            "the first touch; compare with it by `tacgrasp bench strawberry --policies fixed_force`"
-        )
-    check_policy(config.policy, config)
+    check_run_policy(config)
     check_names(config)
     if flags.view:
         require_rerun()

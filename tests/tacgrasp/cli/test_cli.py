@@ -133,6 +133,7 @@ def test_without_a_command_the_usage_is_printed_and_it_is_wrong_use() -> None:
         (["eval", "--data", "nowhere"], "make them: tacgrasp data generate --set full"),
         (["eval", "zero-shot", "--data", "nowhere"], "make them: tacgrasp data generate --out"),
         (["run", "--policy", "fixed_force"], "bench strawberry --policies fixed_force"),
+        (["run", "--policy", "rules", "--weights", "nowhere"], "--weights nowhere is not a folder"),
         (["run", "--weights", "nowhere"], "train them with `tacgrasp train all`"),
         (["why", "no.mcap"], "no.mcap does not exist"),
     ],
