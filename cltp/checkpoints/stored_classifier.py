@@ -40,7 +40,7 @@ def load_classifier(folder: Path) -> TextClassifier:
     Raises:
         WeightsError: Missing, damaged, or of another kind.
     """
-    require_files(folder)
+    require_files(folder, command=f"tacgrasp train queries --out {folder}")
     check_manifest(folder)
     stored = read_config(folder / CONFIG)
     check_model_type(folder, stored, CLASSIFIER)

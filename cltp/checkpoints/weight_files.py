@@ -43,8 +43,12 @@ def save_weights(
     write_manifest(folder, trained_with=trained_with)
 
 
-def require_files(folder: Path) -> None:
+def require_files(folder: Path, *, command: str = "tacgrasp train all") -> None:
     """Refuse a folder without configuration or weights.
+
+    Args:
+        folder: Folder of the weights.
+        command: Command that makes them, for the message.
 
     Raises:
         WeightsError: It names the missing file.
@@ -53,7 +57,7 @@ def require_files(folder: Path) -> None:
         if not (Path(folder) / name).is_file():
             raise WeightsError(
                 f"weights are missing: {Path(folder) / name} does not exist; "
-                "train them with `tacgrasp train all` or name the right folder"
+                f"train them with `{command}` or name the right folder"
             )
 
 

@@ -85,3 +85,8 @@ def test_a_missing_or_changed_file_is_refused(model, tmp_path):
     weights.write_bytes(weights.read_bytes()[:-8] + bytes(8))
     with pytest.raises(WeightsError):
         load_classifier(tmp_path)
+
+
+def test_a_missing_classifier_names_the_command_that_makes_it(tmp_path):
+    with pytest.raises(WeightsError, match=f"`tacgrasp train queries --out {tmp_path}`"):
+        load_classifier(tmp_path)
