@@ -122,6 +122,17 @@ def test_the_results_are_those_of_the_weights_that_come_along():
 
 
 @pytest.mark.slow
+def test_the_pages_quote_the_run_that_the_readme_shows():
+    readme = script("readme_run")
+    text = (ROOT / "README.md").read_text()
+    _, begin, end = readme.shown(text)
+    rows = re.findall(r"^\| `(.*?)` \|", (DOCS / "quick-start.md").read_text(), re.M)
+    gain = re.findall(r"^(gripper: presses .*)$", (DOCS / "contract.md").read_text(), re.M)
+    assert len(rows) > 5 and gain
+    quoted = [part for row in [*rows, *gain] for part in row.split("…")]
+    assert [part for part in quoted if part.strip(" “") not in text[begin:end]] == []
+
+
 def test_the_readme_shows_a_run_as_it_prints_now(tmp_path):
     readme = script("readme_run")
     text = (ROOT / "README.md").read_text()
