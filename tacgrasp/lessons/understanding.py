@@ -4,7 +4,8 @@ The grammar (``tacgrasp.lessons.dialogue.families``) says exactly what its wordi
 other one the model, which learned from them, writes a query under the grammar of queries
 (``tacgrasp.lessons.dialogue.query``), without any touch: what a question asks for does not hang on
 the contact. A classifier of questions (``tacgrasp.lessons.query_classifier``) names others, and the
-query is taken whose probabilities by both have the largest geometric mean.
+query is taken whose probabilities by both have the largest geometric mean, less where the form of
+the question speaks against it (``tacgrasp.lessons.question_form``).
 """
 
 from __future__ import annotations
@@ -48,6 +49,7 @@ from tacgrasp.lessons.dialogue.query import (
 from tacgrasp.lessons.dialogue.scene import AskedScene
 from tacgrasp.lessons.dialogue.tolerances import tolerance_of
 from tacgrasp.lessons.query_classifier import QueryOdds
+from tacgrasp.lessons.question_form import is_unlikely
 
 PROBABLY_BELOW = 0.6
 """Probability of a word below which an answer says 'probably'. As in D_t."""
@@ -69,8 +71,12 @@ NAMED = 12
 """Queries that the classifier names beside the model's. Our choice: the right one is seldom a
 later one."""
 
-LEAST_LOG = -9.0
-"""Log-probability that counts as none: neither model nor classifier excludes a query alone."""
+LEAST_LOG = -6.0
+"""Log-probability that counts as none: neither model nor classifier excludes a query alone. Our
+choice, from -4 to -12 on questions that are not the kept-out ones."""
+
+UNLIKELY_LOG = -2.0
+"""What a query loses that the question's form speaks against. Our choice; -1 to -5 do alike."""
 
 FOLLOW_UP_WORDS = 5
 """Longest question [words] that may be a follow-up without beginning as one. Our choice."""
@@ -99,6 +105,14 @@ have fewer, and a pasted page would take seconds."""
 
 _JOINT = re.compile(r"\s*[?;.]\s+(?:and\s+)?|\s*,\s+(?:and\s+)?|\s+(?:and|plus)\s+", re.I)
 """What joins two questions."""
+
+_REQUEST = re.compile(
+    r"^(?:(?:could|can|would|will) you )?(?:please |kindly )?(?:give|tell|note|state|report|name|"
+    r"list|enumerate|specify|show|measure|read|write|send)(?: down| out)?(?: (?:me|us))?"
+    r"(?: for the \w+)?[ :]+",
+    re.I,
+)
+"""What may stand before a list of things that are asked for."""
 
 NOT_UNDERSTOOD = "I don't understand the question."
 
@@ -170,6 +184,7 @@ def understood_by_grammar(question: str, before: str = "") -> ReadQuestion | Non
 
 def _joined(question: str, most: int = MOST_JOINED) -> tuple[Amount | Check | Which, ...]:
     """The meanings of at most so many joined wordings of the grammar; none where it lacks one."""
+    question = _REQUEST.sub("", question, count=1)
     joints = list(_JOINT.finditer(question))
     if len(joints) > MOST_JOINTS:
         return ()
@@ -199,7 +214,8 @@ def understood_by_model(
     """What a question means to model and classifier; None where they come to no query."""
     if is_beyond(question):
         return None
-    asked = asked_text(plainer(question), before)
+    plain = plainer(question)
+    asked = asked_text(plain, before)
     grammar = query_grammar(len(asked.numbers))
     reply = writer.reply_to(torch.zeros(0, writer.width), asked.words, grammar=grammar)
     if not reply.ended:
@@ -213,6 +229,7 @@ def understood_by_model(
     written = writer.log_likelihoods(asked.words, [query for query, _ in possible])
     logs = [
         (max(log, LEAST_LOG) + max(odds.of(query), LEAST_LOG)) / 2
+        + (UNLIKELY_LOG if is_unlikely(plain, query) and not before else 0.0)
         for (query, _), log in zip(possible, written, strict=True)
     ]
     weights = np.exp(np.array(logs) - max(logs))

@@ -52,8 +52,8 @@ _ADDRESS = re.compile(
     re.I,
 )
 _THANKS = re.compile(
-    r"[\s,]+(?:please|pls|plz|thanks|thank you|thx|mate|buddy|robot|(?:mister|mr|dear) \w+|sir|"
-    r"my friend|if you (?:please|would|do not mind|don['’]t mind))\s*[?.!]*$",
+    r"[\s,.]+(?:please|quick|quickly|pls|plz|thanks|thank you|thx|mate|buddy|robot|"
+    r"(?:mister|mr|dear) \w+|sir|my friend|if you (?:please|would|do not mind|don['’]t mind))\s*[?.!]*$",
     re.I,
 )
 

@@ -1,0 +1,49 @@
+"""What a question's form tells of its query: a question that begins with 'is' wants yes or no.
+
+The readers of questions (``tacgrasp.lessons.understanding``) know words; of long or strange
+questions they mistake the kind of answer that is wanted, which the first words tell.
+"""
+
+from __future__ import annotations
+
+import re
+
+_VERB = (
+    r"(?:is|are|was|were|has|have|had|do|does|did|can|could|will|would|should|must|may|might|am|"
+    r"shall)"
+)
+_BEGINS_WITH_VERB = re.compile(rf"{_VERB}\b", re.I)
+_INDIRECT = re.compile(
+    r"(?:can|could|will|would|may|might|do|did|have|shall) (?:you|i|we) (?:[a-z]+ly )?"
+    r"(?:please |perhaps |be so kind as to |be able to |mind |like to |happen to |have to )*"
+    r"(?:tell|give|say|state|report|describe|name|know|let|show|quote|estimate|specify|share|note|"
+    r"read|have|ask|trouble|explain|provide|measure|check|see|express|send|put|write|call|class|get|learn|"
+    r"identify|summari|feel|sense|find|work|guess|indicate|confirm|comment|inform|remind|pass|advise|"
+    r"suggest|recommend)|(?:is|was|are|were) there\b",
+    re.I,
+)
+"""'Could you tell me' asks for anything."""
+
+_ASKS_WHY = re.compile(
+    r"\b(?:why|how come|reason|because|ground|justif|explain|explanation|motive|basis|rationale|"
+    r"evidence|based|cause|wherefore|what for|what makes|sure|certain)",
+    re.I,
+)
+
+
+def is_unlikely(question: str, query: str) -> bool:
+    """Whether a question's form speaks against a query.
+
+    Args:
+        question: The question, as ``tacgrasp.lessons.dialogue.plainer`` leaves it.
+        query: The query (``tacgrasp.lessons.dialogue.query``).
+    """
+    kinds = {part.strip().partition(" ")[0].rstrip(".") for part in query.split(";")}
+    if "why" in kinds and not _ASKS_WHY.search(question):
+        return True
+    if not _BEGINS_WITH_VERB.match(question) or _INDIRECT.match(question):
+        return False
+    wanted = {"check", "unknown", "other"}
+    if re.search(r"\bor\b", question, re.I):
+        wanted.add("choice")
+    return not kinds & wanted

@@ -1,0 +1,37 @@
+"""A question's form speaks against queries of another kind."""
+
+import pytest
+
+from tacgrasp.lessons.question_form import is_unlikely
+
+
+@pytest.mark.parametrize(
+    ("question", "query"),
+    [
+        ("is the whole contact inside the pad", "choice wholeness."),
+        ("does it use more than half of the limit", "amount limit N."),
+        ("is it a sphere or a ring", "word shape."),
+        ("what is the next action to dispatch", "why step."),
+        ("is it deep", "amount depth mm; word shape."),
+    ],
+)
+def test_another_kind_of_answer_is_unlikely(question, query):
+    assert is_unlikely(question, query)
+
+
+@pytest.mark.parametrize(
+    ("question", "query"),
+    [
+        ("is the whole contact inside the pad", "check whole."),
+        ("is it a sphere or a ring", "choice shape."),
+        ("could you kindly tell me the depth", "amount depth mm."),
+        ("is it red", "unknown color."),
+        ("is it round, and how deep is it", "check shape sphere; amount depth mm."),
+        ("on what grounds do you say so", "why step."),
+        ("what is the depth", "amount depth mm."),
+        ("depth", "check depth deep."),
+        ("", "other."),
+    ],
+)
+def test_what_fits_or_is_not_told_stays(question, query):
+    assert not is_unlikely(question, query)
