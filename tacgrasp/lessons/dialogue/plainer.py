@@ -4,7 +4,8 @@
     We haven't gone past 1 mm, have we?             have we gone past 1 mm?
     There's nothing on the pad, is there?           is there anything on the pad?
     Could I trouble you for the depth?              give me the depth?
-    Is the force above 0.5 pounds?                  is the force above 227 grams?
+    Is the force above 0.5 pounds?                  is the force above 226.8 grams?
+    depth < 300 µm?                                 depth less than 300 µm?
 
 Before a tag, and in the verb that begins a question, a denial expects 'yes': it is taken out with
 the tag. 'Is it not deep?' and 'It is not deep, right?' stay, which ask whether it is not.
@@ -53,11 +54,23 @@ _ADDRESS = re.compile(
 )
 _THANKS = re.compile(
     r"[\s,.]+(?:please|quick|quickly|pls|plz|thanks|thank you|thx|mate|buddy|robot|"
-    r"(?:mister|mr|dear) \w+|sir|my friend|if you (?:please|would|do not mind|don['’]t mind))\s*[?.!]*$",
+    r"(?:mister|mr|dear) \w+|sir|my friend|"
+    r"if you (?:please|would|do not mind|don['’]t mind))\s*[?.!]*$",
     re.I,
 )
 
 
+_POLITE_VERB = re.compile(
+    r"(?:would|could|can|will) you (?:please )?(?:be so kind as to|be kind enough to) |"
+    r"is it (?:fair|right|correct|safe) to (?:write|say|note|state) that ",
+    re.I,
+)
+_SIGNS = (
+    (re.compile(r" ?(?:>=|≥) ?"), " at least "),
+    (re.compile(r" ?(?:<=|≤) ?"), " at most "),
+    (re.compile(r" ?> ?"), " more than "),
+    (re.compile(r" ?< ?"), " less than "),
+)
 _POLITE = re.compile(
     r"(?:(?:could|can|may|might) (?:i|we) (?:trouble|bother|ask) you (?:for|to (?:tell|give) me)|"
     r"i (?:would|['’]d) be (?:most |very )?(?:grateful|obliged|glad|thankful) (?:for|to have))\s+",
@@ -103,6 +116,7 @@ def plainer(question: str) -> str:
     text = _metric(" ".join(question.split()))
     if opening := _ADDRESS.match(text):
         text = text[opening.end() :]
+    text = _POLITE_VERB.sub("", text, count=1)
     text = _PURPOSE.sub("", _POLITE.sub("give me ", _THANKS.sub("", text), count=1))
     if tag := _TAG.search(text):
         text = _asked(text, tag)
@@ -112,7 +126,9 @@ def plainer(question: str) -> str:
 
 
 def _metric(text: str) -> str:
-    """A text whose pounds, ounces and inches are grams and millimetres."""
+    """A text with words for signs, and grams and millimetres for pounds, ounces and inches."""
+    for sign, words in _SIGNS:
+        text = sign.sub(words, text)
     if not re.search(r"pound|\blb|ounce|\boz|inch|\din\b|\d in\b", text, re.I):
         return text
     digits = in_digits(text.lower())

@@ -10,6 +10,7 @@ LENGTHS: dict[str, str | dict[str, str]] = {
             "a single word will do|just a word|only one word|one-word answer|a one-word answer|"
             "a one word answer please|with one word|with a single word|"
             "(answer|reply|respond) (in|with) (one|a single|just one|only one) word|"
+            "by one word [only]|"
             "(answer|reply) in a word|say it in (one|a single) word|no more than one word|"
             "not more than a word|use one word|use just one word|use a single word)"
         ),

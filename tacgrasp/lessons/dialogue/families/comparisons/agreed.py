@@ -186,7 +186,7 @@ _ROOM_BARE = (
     "({compared}) {left} {to_limit}|({compared}) (below|under) the limit|({compared}) {to_limit}"
 )
 
-_OF_LIMIT = "of (the|our) [hard|force|grip|safety|allowed|whole] limit"
+_OF_LIMIT = "of [the|our] [hard|force|grip|safety|allowed|whole] limit"
 _FIXED_SHARES = {
     "50 %": f"(half|one half) ({_OF_LIMIT}|the [hard|force] limit)",
     "25 %": f"(a quarter|one quarter) {_OF_LIMIT}",
