@@ -53,7 +53,7 @@ def main(argv: Sequence[str]) -> int:
             raise UsageError(f"--{name.replace('_', '-')} needs --decide")
     from tacgrasp.console import StepPrinter, make_console, truth_text
     from tacgrasp.episodes import read_episode
-    from tacgrasp.episodes.record import end_label
+    from tacgrasp.episodes.record import NO_END, end_label
 
     episode = read_episode(flags.episode)
     console = make_console()
@@ -69,7 +69,7 @@ def main(argv: Sequence[str]) -> int:
     for step in episode.steps:
         print_step(step)
     if end is None:
-        console.print("end: not recorded; the run was killed or crashed")
+        console.print(f"end: not recorded; {NO_END}")
         return 0
     console.print(f"end: {end_label(end.reason, end.truth)} - {end.message}")
     if end.truth is not None:

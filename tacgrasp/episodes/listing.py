@@ -15,7 +15,7 @@ from rich.table import Table
 
 from tacgrasp.episodes.errors import EpisodeError
 from tacgrasp.episodes.reader import read_episode
-from tacgrasp.episodes.record import Episode, EpisodeEnd, StepPhase, end_label, harms
+from tacgrasp.episodes.record import NO_END, Episode, EpisodeEnd, StepPhase, end_label, harms
 
 _YES_NO = {True: "yes", False: "no", None: "not tried"}
 
@@ -81,9 +81,7 @@ def info(path: Path) -> Table:
         "duration": f"{duration_s(episode):.2f} s",
         "steps": _steps_text(episode),
         "actions": ", ".join(f"{count} × {name}" for name, count in actions.items()),
-        "end": end_label(end.reason, end.truth)
-        if end
-        else "not recorded: the run was killed or crashed",
+        "end": end_label(end.reason, end.truth) if end else f"not recorded: {NO_END}",
         "message": end.message if end else "",
         "declared success": _YES_NO[end.declared_success] if end else "",
         "verified success": _YES_NO[end.verified_success] if end else "",

@@ -96,6 +96,9 @@ class StepPhase(StrEnum):
     VERIFY_AFTER = "verify_after"  # after lift and hold
 
 
+NO_END = "the run was killed or crashed, or its file is damaged"
+"""Why an episode can have no end, for people."""
+
 PHASE_LABELS = {
     StepPhase.VERIFY_BEFORE: "before the lift",
     StepPhase.VERIFY_AFTER: "after the lift",

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 from tacgrasp.episodes.command_log import Command, pose_text
 from tacgrasp.episodes.record import (
+    NO_END,
     PHASE_LABELS,
     Episode,
     StepPhase,
@@ -40,7 +41,7 @@ def first_trouble(episode: Episode) -> Trouble | None:
     end, last = episode.end, episode.steps[-1] if episode.steps else None
     if end is None:
         message = episode.problem or "no end was recorded"
-        return Trouble(kind="crash", message=f"the run was killed or crashed: {message}", step=last)
+        return Trouble(kind="crash", message=f"{NO_END}: {message}", step=last)
     label = end_label(end.reason, end.truth)
     if label in ("success", "dry_run"):
         return None

@@ -103,6 +103,7 @@ def test_a_killed_run_is_a_crash() -> None:
     assert trouble is not None
     assert trouble.kind == "crash"
     assert "it ends at byte 3" in trouble.message
+    assert "or its file is damaged" in trouble.message
 
 
 def test_a_damaged_episode_is_judged_by_what_was_read_alone(
