@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from tacgrasp.base.errors import UsageError
+from tacgrasp.base.result_file import check_ending
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -68,6 +69,10 @@ def run(flags: CalibrateGripperFlags) -> None:
     out = flags.out or settings.calibration
     if not out.parent.is_dir():
         raise UsageError(f"the calibration can't be written to {out}: {out.parent} is no folder")
+    if flags.out is not None:
+        check_ending(flags.out, ".yaml", ".yml")
+    if out.resolve() == flags.rig.resolve():
+        raise UsageError(f"--out {out} is the rig's own file; name another")
     if flags.readings is None:
         calibration = _measured(flags, settings, date, console)
     else:

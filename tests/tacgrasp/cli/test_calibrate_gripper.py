@@ -94,6 +94,17 @@ def test_input_that_ends_too_early_leaves_the_fingers_open_and_writes_nothing(
         emulator.close()
 
 
+def test_the_rigs_own_file_and_files_of_another_kind_are_kept(rig, capsys, tmp_path):
+    path, other = rig(), tmp_path / "notes.txt"
+    other.write_text("mine")
+    before = path.read_text()
+    for out, message in ((path, "is the rig's own file"), (other, "ending in .yaml or .yml")):
+        argv = ["calibrate", "gripper", "--rig", str(path), "--out", str(out)]
+        assert main(argv) == 2
+        assert message in capsys.readouterr().err
+    assert (path.read_text(), other.read_text()) == (before, "mine")
+
+
 @pytest.mark.parametrize(
     ("words", "message"),
     [
