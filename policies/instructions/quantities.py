@@ -231,7 +231,7 @@ _HARMED = re.compile(
     rf"\b{_HARMS}(?: \w+){{0,3}} (?:above|over|beyond|past|at|from|with more than|after)\s*$"
 )
 _SLIPPING = re.compile(
-    rf"(?:^|[,;:]|\b(?:it|berry|fruit|one|this|thing|they|and|or|but|these|berries)) ?{_SLIPS}(?: \w+){{0,3}} (?:under|below|at|with less than)\s*$"
+    rf"(?:^|[,;:]|\b(?:it|berry|fruit|one|this|thing|they|and|or|but|these|berries)) ?{_SLIPS}(?: \w+){{0,3}} (?:under|below|at|with|with less than)\s*$"
 )
 _TOO_MUCH = re.compile(
     rf"[^.;#]{{0,20}}\b(?:too much|forbidden|not allowed|prohibited|out of|off limits|unacceptable|no go|a no-no|not ok\w*|{_HARMS})"
@@ -349,7 +349,8 @@ def _forces(text: str) -> tuple[list[Force], str, str]:
             )
             left, stop = left[:left_cut], stop + right_cut
             before = re.split(r"[.;,]\s|\bbut\b", left)[-1]
-            clause = before + re.split(r"[.;,]\s?", text[stop:], maxsplit=1)[0]
+            after = re.split(r"[.;,]\s?|\b(?:instead of|rather than)\b", text[stop:], maxsplit=1)[0]
+            clause = before + after
             is_denied = kind == "value" and bool(_DROPPED.search(left) or _NOT.search(before))
             if _CORRECTION.search(left) or _CORRECTION.match(text[stop:].lstrip(" .,;-–—")):
                 is_denied = is_denied or not _CORRECTION.search(left)
@@ -456,6 +457,8 @@ def _relation(left: str, right: str) -> tuple[Kind, int, int]:
             return (denied if is_denied else plainly), start, 0  # type: ignore[return-value]
     if match := _HARMED.search(left):
         return "most", match.start(), 0
+    if match := _SLIPPING.search(left):
+        return "least", match.start(), 0
     most, least = _MOST.search(left), _LEAST.search(left)
     if most and most.group().startswith("up to") and _RISE.search(left[: most.start()]):
         most = None  # 'bring it up to 1.4 N'

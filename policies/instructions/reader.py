@@ -76,6 +76,7 @@ _THIS_WHILE = re.compile(
     rf"(?:please |can you |could you |would you |now |just )*{words.any_of('hold')}(?: up| on| on to)? (?:(?:the|that|this) (?:\w+ )?one\b|(?:it|this|that|these|one)\b(?= while| for me| and| so| until|,|$))"
 )
 _USUAL_GRIP = re.compile(
+    r"\bwhatever (?:force|grip|squeeze|pressure)? ?(?:you think )?(?:is |seems )?(?:right|best|needed|necessary|fit|appropriate)\b|"
     r"\b(?:standard|usual|normal|regular|default|same|ordinary) (?:old )?(?:grip|grasp|hold|force|pick)\b|"
     r"^(?:please |just |do )*(?:the |it )?same(?: (?:procedure|way|thing|force|grip))? as (?:usual|before|last time|always)\b|"
     r"^(?:please |just |do )*(?:it |business )?(?:as|like) (?:usual|normal|always|before|last time|ever)\b|"
@@ -114,7 +115,7 @@ def _refusal(text: str, clean: str, numbers: Quantities) -> str:
 
 def _no_english(text: str) -> str:
     letters = [c for c in text if c.isalpha()]
-    if letters and sum(ord(c) > 0x24F for c in letters) > 0.3 * len(letters):
+    if letters and sum(ord(c) > 0x24F and c not in "µμ" for c in letters) > 0.3 * len(letters):
         return NOT_ENGLISH
     tokens = [t for t in re.findall(r"[^\W\d_]+", text) if len(t) > 1]
     foreign = sum(t in _FOREIGN for t in tokens)

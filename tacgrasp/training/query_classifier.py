@@ -73,7 +73,7 @@ class QueryClassifierRequest:
 
     out: Path
     questions: int = 800_000
-    steps: int = 12_000
+    steps: int = 10_000
     seed: int = 0
 
 
