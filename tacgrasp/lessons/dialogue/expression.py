@@ -67,7 +67,7 @@ class Expression:
     Attributes:
         text: The expression.
         names: Names of a scene that it has, in their order.
-        divided: Names above and below the bar of the first quotient of names; empty without one.
+        divided: The names above and below the bar of the first quotient of two; empty without one.
 
     Raises:
         ValueError: It is too long, or has something that is no part of an expression.
@@ -88,14 +88,14 @@ class Expression:
         self._check(self._tree)
 
     def _divided(self) -> tuple[tuple[str, ...], ...]:
-        """Names above and below the bar, where names are divided by names; else nothing."""
+        """The names above and below the bar, where one is divided by one; else nothing."""
         for node in ast.walk(self._tree):
             if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Div):
                 sides = tuple(
                     tuple(n.id for n in ast.walk(side) if isinstance(n, ast.Name) and n.id in NAMES)
                     for side in (node.left, node.right)
                 )
-                if all(sides):
+                if all(len(set(side)) == 1 for side in sides):
                     return sides
         return ()
 

@@ -66,6 +66,14 @@ def test_grams_stand_for_a_force_and_square_millimetres_for_a_percentage():
     assert not right("0.25 N", "number", "mass_g")
 
 
+def test_a_name_over_another_of_its_dimension_is_a_percentage():
+    assert right("64 %", "number", "100 * force_n / limit_n")  # 0.83 of 1.3 N
+    assert not right("0.64 N", "number", "100 * force_n / limit_n")
+    assert right("1.23 N", "number", "60 * gram_n")
+    assert right("1.4 mm", "number", "(x_mm * x_mm + y_mm * y_mm) / hypot(x_mm, y_mm)")
+    assert right("37 mm²", "number", "area_mm2")
+
+
 def test_a_tolerance_of_the_row_counts_in_its_unit_or_in_percent():
     assert right("0.9 N", "number", "force_n", tolerance="0.1")
     assert not right("0.9 N", "number", "force_n", tolerance="0.05")

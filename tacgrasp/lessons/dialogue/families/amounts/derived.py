@@ -370,7 +370,7 @@ _BAND_TO_LIMIT = AmountWording(
 )
 
 _TOP = (
-    "(the [hard|force|grip|safety|allowed] limit|the (allowed maximum|permitted maximum|"
+    "(the [hard|force|grip|safety|allowed] limit|the limit force|the (allowed maximum|permitted maximum|"
     "allowed force|permitted force)|the (maximum|largest|highest) (allowed|permitted) force|our limit|"
     "what (is allowed|the contract allows))"
 )
