@@ -134,8 +134,8 @@ _SHARES = {
 }  # fmt: skip
 _SHARE = re.compile(
     rf"\b({'|'.join(sorted(_SHARES, key=len, reverse=True))})\b"
-    r"(?= (?:of )?(?:the|this|our|its|my|that) (?:\w+ )?"
-    r"(?:pad|gel|sensor|surface|fingertip|skin|limit|ceiling)\b)"
+    r"(?= (?:of )?(?:(?:the|this|our|its|my|that) (?:\w+ )?"
+    r"(?:pad|gel|sensor|surface|fingertip|skin|limit|ceiling)|(?:of )?(?:\w+ )?limit)\b)"
 )
 _SINGLE = re.compile(
     r"\b(?:an?|one)(?: (?:single|full|whole|entire|good))? (?=(?:milli|micro|kilo|mm\b))"

@@ -211,7 +211,8 @@ def test_a_damaged_episode_is_not_called_reproduced_exactly(
     assert main(["run", "--policy", "rules", "--seed", "1", "--record", str(tmp_path)]) == 0
     (whole,) = tmp_path.glob("*.mcap")
     data = bytearray(whole.read_bytes())
-    data[len(data) // 2] ^= 0xFF
+    middle = len(data) // 2
+    data[middle : middle + 512] = bytes(512)  # longer than what lies between two chunks
     damaged = tmp_path / "flip.mcap"
     damaged.write_bytes(data)
     capsys.readouterr()
