@@ -71,9 +71,9 @@ NAMED = 12
 """Queries that the classifier names beside the model's. Our choice: the right one is seldom a
 later one."""
 
-LEAST_LOG = -6.0
+LEAST_LOG = -5.0
 """Log-probability that counts as none: neither model nor classifier excludes a query alone. Our
-choice, from -4 to -12 on questions that are not the kept-out ones."""
+choice, of -4 to -12, on questions that are not the kept-out ones."""
 
 UNLIKELY_LOG = -2.0
 """What a query loses that the question's form speaks against. Our choice; -1 to -5 do alike."""

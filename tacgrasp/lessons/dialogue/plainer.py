@@ -30,7 +30,8 @@ _DENIED = re.compile(rf"\b(?:{_SHORTENED}|{_VERB} ?not)\b", re.I)
 _DENIED_FIRST = re.compile(rf"{_SHORTENED}\b", re.I)
 _TAG = re.compile(
     rf"\s*[,;–—-]\s*(?:or )?\b(?:{_VERB}|(?P<denied>{_SHORTENED})) "
-    r"(?:it|we|they|there|this|that|these|those|one|i)(?P<not> not)?\s*[?.!]*$",
+    r"(?:it|we|they|there|this|that|these|those|one|i|"
+    r"(?<!can )(?<!could )(?<!will )(?<!would )you)(?P<not> not)?\s*[?.!]*$",
     re.I,
 )
 _NEGATIVES = {"nothing": "anything", "nobody": "anybody", "none": "any", "no": "any"}

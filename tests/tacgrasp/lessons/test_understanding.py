@@ -176,7 +176,7 @@ class Sure(Odds):
     """Is sure of one query."""
 
     def of(self, query):
-        return 0.0 if query == self.rival else -5.0
+        return 0.0 if query == self.rival else -4.0
 
 
 @pytest.mark.parametrize(("likelihood", "query"), [(-3.0, "unknown name."), (-30.0, "word shape.")])

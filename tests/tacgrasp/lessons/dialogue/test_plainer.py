@@ -14,6 +14,7 @@ from tacgrasp.lessons.dialogue.plainer import is_beyond, plainer
         ("The finish isn't rough, or is it?", "is The finish rough?"),
         ("It isn't a cylinder, is it?", "is It a cylinder?"),
         ("A 50 g part won't slip, will it?", "will A 50 g part slip?"),
+        ("You're not pushing over 4 N, are you?", "are You pushing over 4 N?"),
         ("That's a cylinder, isn't it?", "is That a cylinder?"),
         ("Force in mN pls", "Force in mN"),
         ("Could I trouble you for the depth?", "give me the depth?"),

@@ -204,6 +204,7 @@ _AREA_INDIRECT = (
     "whether the area is tiny, small, medium, large or very large"
 )
 _AREA_NOUN = (
+    "the size (class|category) [of the (contact|patch|footprint|touch)]|"
     "the area (class|word|category|label) [of {touch}]|"
     "the (class|category) of the [contact] area|the size class of the contact|"
     "the [contact] area (in words|as a word|as a class|in plain words|without numbers|not in "
