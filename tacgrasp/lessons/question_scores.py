@@ -30,7 +30,14 @@ from tacgrasp.lessons.dialogue.scene import AskedScene
 
 CONFIDENCE_GROUPS = 10
 
-_BASE_UNITS = {"length": "mm", "force": "N", "fraction": "%", "mass": "g", "": ""}
+_BASE_UNITS = {
+    "length": "mm",
+    "force": "N",
+    "fraction": "%",
+    "area": "mm²",
+    "mass": "g",
+    "": "",
+}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -32,8 +32,13 @@ _HELD = (
 )
 
 
-def _times(noun: str) -> Slots:
-    """Multiples of what a noun names, and verbs that make them, by their names in queries."""
+def _times(noun: str, much: str) -> Slots:
+    """Multiples of what a noun names, and verbs that make them, by their names in queries.
+
+    Args:
+        noun: What is multiplied, with its article.
+        much: What comes after 'twice as': '(much|hard)'.
+    """
     return {
         "times": {
             "half": f"(half|one half of|half of) ({noun})",
@@ -51,9 +56,9 @@ def _times(noun: str) -> Slots:
             "thrice": "(triple|tripled)",
         },
         "as_much": {
-            "half": "half as (much|far|hard|deep|many)",
-            "twice": "(twice|two times) as (much|far|hard|deep|many)",
-            "thrice": "(three times|thrice) as (much|far|hard|deep|many)",
+            "half": f"half as {much}",
+            "twice": f"(twice|two times) as {much}",
+            "thrice": f"(three times|thrice) as {much}",
         },
     }
 
@@ -126,7 +131,7 @@ def _multiple_wording(noun: str, asks: str, do: str) -> AmountWording:
     )
 
 
-def _multiple(name: str, noun: str, asks: str, do: str, *units: str) -> QuestionFamily:
+def _multiple(name: str, noun: str, much: str, asks: str, do: str, *units: str) -> QuestionFamily:
     """A family that asks for half, twice or three times a quantity."""
     symbols = {("gf" if unit == "g" and name == "force" else unit): unit for unit in units}
     return QuestionFamily(
@@ -134,7 +139,7 @@ def _multiple(name: str, noun: str, asks: str, do: str, *units: str) -> Question
         pattern=number_pattern(_multiple_wording(noun, asks, do), is_unit_needed=False),
         slots={
             **amount_slots({unit: UNIT_WORDS[words] for words, unit in symbols.items()}),
-            **_times(noun),
+            **_times(noun, much),
         },
         build=lambda bindings, _: Amount(
             quantity=multiple_of(bindings, name),
@@ -496,6 +501,7 @@ FAMILIES: tuple[QuestionFamily, ...] = (
     _multiple(
         "force",
         _FORCE,
+        "(much|hard)",
         "how (hard|strong|much force)",
         "press|squeeze|grip|hold|pinch|clamp|pressed|squeezed|gripped|pushed",
         *("N", "mN", "g"),
@@ -503,6 +509,7 @@ FAMILIES: tuple[QuestionFamily, ...] = (
     _multiple(
         "depth",
         _DEPTH,
+        "(much|far|deep)",
         "how (deep|far)",
         "press in|pressed in|go in|went in|push in|pushed in|sink in|sank in|dent it",
         *("mm", "µm"),
@@ -510,6 +517,7 @@ FAMILIES: tuple[QuestionFamily, ...] = (
     _multiple(
         "holds",
         _HELD,
+        "(much|many)",
         "how (heavy|much weight|many grams)",
         "hold|carry|held|carried|could hold|can hold",
         "g",
