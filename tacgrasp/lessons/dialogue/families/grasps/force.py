@@ -399,12 +399,14 @@ FAMILIES: tuple[QuestionFamily, ...] = (
                 "upper": (
                     f"((above|over|beyond|past|more than|higher than|in excess of) {_MIDDLE_OF_BAND}|"
                     f"in the (upper|top|higher) half of {_BAND}|(nearer|closer) [to] the (upper|top) "
+                    f"end of {_BAND}|(nearer|closer) [to] the (upper|top) "
                     f"end [of {_BAND}] than [to] its lower end|"
                     f"(nearer|closer) [to] the (maximum|most) than the (minimum|least) [of {_BAND}])"
                 ),
                 "lower": (
                     f"((below|under|less than|lower than|short of) {_MIDDLE_OF_BAND}|"
                     f"in the (lower|bottom) half of {_BAND}|(nearer|closer) [to] the lower "
+                    f"end of {_BAND}|(nearer|closer) [to] the lower "
                     f"end [of {_BAND}] than [to] its upper end|"
                     f"(nearer|closer) [to] the (minimum|least) than the (maximum|most) [of {_BAND}])"
                 ),
