@@ -8,11 +8,9 @@ from __future__ import annotations
 
 import re
 
-_VERB = (
-    r"(?:is|are|was|were|has|have|had|do|does|did|can|could|will|would|should|must|may|might|am|"
-    r"shall)"
-)
-_BEGINS_WITH_VERB = re.compile(rf"{_VERB}\b", re.I)
+from tacgrasp.lessons.dialogue.plainer import AUXILIARY
+
+_BEGINS_WITH_VERB = re.compile(rf"{AUXILIARY}\b", re.I)
 _INDIRECT = re.compile(
     r"(?:can|could|will|would|may|might|do|did|have|shall) (?:you|i|we) (?:[a-z]+ly )?"
     r"(?:please |perhaps |be so kind as to |be able to |mind |like to |happen to |have to )*"

@@ -19,17 +19,20 @@ import re
 
 from policies.instructions.numerals import in_digits
 
-_VERB = (
-    r"(?:is|are|was|were|has|have|had|do|does|did|can|could|will|would|should|must|may|might|am)"
+AUXILIARY = (
+    r"(?:is|are|was|were|has|have|had|do|does|did|can|could|will|would|should|must|may|might|am|"
+    r"shall)"
 )
+"""Verbs that may begin a question for yes or no, as a pattern."""
+
 _SHORTENED = (
     r"(?:is|are|was|were|has|have|had|do|does|did|could|would|should|must|might|ca|wo|ai)n['’]?t"
 )
 _VERBS_OF = {"ca": "can", "wo": "will", "ai": "is"}
-_DENIED = re.compile(rf"\b(?:{_SHORTENED}|{_VERB} ?not)\b", re.I)
+_DENIED = re.compile(rf"\b(?:{_SHORTENED}|{AUXILIARY} ?not)\b", re.I)
 _DENIED_FIRST = re.compile(rf"{_SHORTENED}\b", re.I)
 _TAG = re.compile(
-    rf"\s*[,;–—-]\s*(?:or )?\b(?:{_VERB}|(?P<denied>{_SHORTENED})) "
+    rf"\s*[,;–—-]\s*(?:or )?\b(?:{AUXILIARY}|(?P<denied>{_SHORTENED})) "
     r"(?:it|we|they|there|this|that|these|those|one|i|"
     r"(?<!can )(?<!could )(?<!will )(?<!would )you)(?P<not> not)?\s*[?.!]*$",
     re.I,
@@ -42,9 +45,9 @@ _CONTRACTED = (
     (re.compile(r"\b(i|we|they|you)['’]ve\b", re.I), r"\1 have"),
 )
 _STATED = re.compile(
-    rf"(?P<subject>(?:[\w'’-]+ ){{1,7}}?)(?P<verb>{_VERB}) (?P<rest>.+)", re.I | re.S
+    rf"(?P<subject>(?:[\w'’-]+ ){{1,7}}?)(?P<verb>{AUXILIARY}) (?P<rest>.+)", re.I | re.S
 )
-_OPENS = re.compile(rf"(?:{_VERB}|what|how|which|where|why|who|when)\b", re.I)
+_OPENS = re.compile(rf"(?:{AUXILIARY}|what|how|which|where|why|who|when)\b", re.I)
 _ADDRESS = re.compile(
     r"(?:(?:ok(?:ay)?|so|well|right then|now then|hang on|hold on|wait|hey(?: \w+)?|hi(?: \w+)?|"
     r"hello(?: \w+)?|robot|um+|uh+|er+m?|sorry|excuse me|please|quick question|tell me|listen|look|"
