@@ -163,8 +163,8 @@ def understood(writer: QueryWriter, question: str, before: str = "") -> ReadQues
 def understood_by_grammar(question: str, before: str = "") -> ReadQuestion | None:
     """What a question means by the grammar; None where it has not the wording.
 
-    Two or three of its wordings that are joined by a comma, 'and' or a question mark are asked
-    together.
+    Some of its wordings (``MOST_JOINED`` at most) that are joined by a comma, 'and' or a question
+    mark are asked together.
     """
     meaning = understand(question, before=before)
     if meaning is None and (plain := plainer(question)) != question:

@@ -40,7 +40,7 @@ BATCH, RATE, DECAY = 192, 1e-3, 0.01
 
 POOL = 16
 """Steps whose questions are drawn together and sorted by their length, so that little is padded:
-twice as fast (measured on one core)."""
+a step takes a quarter of the time (measured on one core)."""
 
 LEAST_DRAWN = 3
 """Times that a query must have been drawn to be a class: what is rarer is left to the model."""

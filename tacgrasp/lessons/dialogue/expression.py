@@ -13,6 +13,7 @@ import math
 import operator
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 from cltp.tactile.states import CLASSES
@@ -67,7 +68,6 @@ class Expression:
     Attributes:
         text: The expression.
         names: Names of a scene that it has, in their order.
-        divided: The names above and below the bar of the first quotient of two; empty without one.
 
     Raises:
         ValueError: It is too long, or has something that is no part of an expression.
@@ -84,11 +84,11 @@ class Expression:
         nodes = [node for node in ast.walk(self._tree) if isinstance(node, ast.Name)]
         nodes.sort(key=lambda node: node.col_offset)
         self.names = tuple(dict.fromkeys(node.id for node in nodes if node.id in NAMES))
-        self.divided = self._divided()
         self._check(self._tree)
 
-    def _divided(self) -> tuple[tuple[str, ...], ...]:
-        """The names above and below the bar, where one is divided by one; else nothing."""
+    @cached_property
+    def divided(self) -> tuple[tuple[str, ...], ...]:
+        """The names above and below the bar of the first quotient of two; empty without one."""
         for node in ast.walk(self._tree):
             if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Div):
                 sides = tuple(
