@@ -36,6 +36,7 @@ from tacgrasp.lessons.dialogue.plain_words import CONTRACTIONS, MISSPELLINGS
 from tacgrasp.lessons.dialogue.query import LostNumberError, asked_text, query_of
 from tacgrasp.lessons.dialogue.question_file import QuestionRow, question_row
 from tacgrasp.lessons.dialogue.scene import AskedScene, band_contract
+from tacgrasp.lessons.dialogue.whole_wordings import drawn_whole
 from tacgrasp.lessons.slips import slipped
 
 KIND_WEIGHTS: Mapping[AnswerKind, float] = {
@@ -54,6 +55,9 @@ that are three. Our choice: people join what they like, and the families of seve
 what stands in their tables alone."""
 
 JOINERS = (" and ", ", and ", "? ", "? And ", ", also ", "; ", ", then ", " plus ", ". ", ", ")
+
+WHOLE = 0.3
+"""Fraction of learned questions that are whole wordings. Our choice."""
 
 TRIES = 20
 """Wordings that are drawn for a yes, or a no, before the last one is taken as it is."""
@@ -206,6 +210,9 @@ def query_exchange(rng: np.random.Generator) -> Exchange:
     Some words are left out, misspelled or exchanged: the question stays the same. A question whose
     number is read otherwise ('this one and three tenths' is 1.3) is drawn anew.
     """
+    if rng.random() < WHOLE:
+        words, query = drawn_whole(rng)
+        return Exchange(prompt=slipped(words, rng), reply=query)
     while True:
         try:
             return _query_exchange(rng)

@@ -28,6 +28,13 @@ _ASKS_WHY = re.compile(
     re.I,
 )
 
+_VERB = rf"{AUXILIARY}(?:n['’]?t)?"
+_ANOTHER_CLAUSE = re.compile(
+    rf"[?!;:]\s*\w|[.,]\s+(?:and |or |also )*{_VERB}\b|\b(?:and|or|plus|also) (?:also )?{_VERB}\b"
+    r"|\b(?:and|plus|also) (?:what|which|how|why|where|whether|if|the|its|it)\b",
+    re.I,
+)
+
 
 def is_unlikely(question: str, query: str) -> bool:
     """Whether a question's form speaks against a query.
@@ -45,3 +52,8 @@ def is_unlikely(question: str, query: str) -> bool:
     if re.search(r"\bor\b", question, re.I):
         wanted.add("choice")
     return not kinds & wanted
+
+
+def is_one_clause(question: str) -> bool:
+    """Whether a question has one verb for all that it asks: 'Is it round and smooth?'."""
+    return _ANOTHER_CLAUSE.search(question) is None

@@ -39,7 +39,7 @@ from tacgrasp.lessons.dialogue.meaning import (
     names_of,
     truth_of,
 )
-from tacgrasp.lessons.dialogue.plainer import is_beyond, plainer
+from tacgrasp.lessons.dialogue.plainer import AUXILIARY, is_beyond, plainer
 from tacgrasp.lessons.dialogue.query import (
     asked_text,
     query_grammar,
@@ -49,7 +49,7 @@ from tacgrasp.lessons.dialogue.query import (
 from tacgrasp.lessons.dialogue.scene import AskedScene
 from tacgrasp.lessons.dialogue.tolerances import tolerance_of
 from tacgrasp.lessons.query_classifier import QueryOdds
-from tacgrasp.lessons.question_form import is_unlikely
+from tacgrasp.lessons.question_form import is_one_clause, is_unlikely
 
 PROBABLY_BELOW = 0.6
 """Probability of a word below which an answer says 'probably'. As in D_t."""
@@ -105,6 +105,17 @@ have fewer, and a pasted page would take seconds."""
 
 _JOINT = re.compile(r"\s*[?;.]\s+(?:and\s+)?|\s*,\s+(?:and\s+)?|\s+(?:and|plus)\s+", re.I)
 """What joins two questions."""
+
+_SUBJECT = re.compile(
+    rf"{AUXILIARY} (?:it|this|that|we|they|(?:the|our|this|that) \w+) ",
+    re.I,
+)
+"""Verb and subject that begin a question: 'is it', 'does the object'."""
+
+_ADJECTIVE = re.compile(
+    rf"({AUXILIARY} (?:it|this|that) )an? ((?:very )?\w+) (.*)",
+    re.I,
+)
 
 _REQUEST = re.compile(
     r"^(?:(?:could|can|would|will) you )?(?:please |kindly )?(?:give|tell|note|state|report|name|"
@@ -166,11 +177,11 @@ def understood_by_grammar(question: str, before: str = "") -> ReadQuestion | Non
     Some of its wordings (``MOST_JOINED`` at most) that are joined by a comma, 'and' or a question
     mark are asked together.
     """
-    meaning = understand(question, before=before)
+    meaning = _with_adjective(question) or understand(question, before=before)
     if meaning is None and (plain := plainer(question)) != question:
         return understood_by_grammar(plain, before)
     if meaning is None and not before and (parts := _joined(question)):
-        meaning = Several(parts=tuple(dict.fromkeys(parts)))
+        meaning = _together(parts)
     if meaning is None:
         return None
     numbers = asked_text(question, before).numbers
@@ -179,7 +190,7 @@ def understood_by_grammar(question: str, before: str = "") -> ReadQuestion | Non
     except ValueError:  # it has a number that is no number of the question: 'half a kilo'
         return None
     read = read_query(query, numbers)
-    return None if read is None else ReadQuestion(query, read, 1.0)
+    return None if read is None else _as_one(question, ReadQuestion(query, read, 1.0))
 
 
 def _joined(question: str, most: int = MOST_JOINED) -> tuple[Amount | Check | Which, ...]:
@@ -193,10 +204,40 @@ def _joined(question: str, most: int = MOST_JOINED) -> tuple[Amount | Check | Wh
         if not first:
             continue
         rest, left = question[joint.end() :], most - len(first)
-        others = _joinable(understand(rest)) or (_joined(rest, left) if left > 1 else ())
-        if 0 < len(others) <= left:
-            return first + others
+        for others_asked in (rest, *_same_subject(question, joint, rest)):
+            others = _joinable(understand(others_asked))
+            others = others or (_joined(others_asked, left) if left > 1 else ())
+            if 0 < len(others) <= left:
+                return first + others
     return ()
+
+
+def _same_subject(question: str, joint: re.Match[str], rest: str) -> Iterator[str]:
+    """What comes behind a joint, with the verb and subject of the first part: 'and smooth?'."""
+    if (begin := _SUBJECT.match(question)) and joint[0].strip()[:1] not in ("?", ";", "."):
+        yield f"{begin[0]}{rest}"
+
+
+def _with_adjective(question: str) -> Meaning | None:
+    """The meaning of 'is it a smooth ball': is it smooth, and is it a ball; None of others."""
+    if (asked := _ADJECTIVE.fullmatch(question)) is None:
+        return None
+    begin, adjective, noun = asked.groups()
+    parts = [understand(f"{begin}{part}") for part in (adjective, f"a {noun}")]
+    checks = [part for part in parts if isinstance(part, Check)]
+    named = [check.test.partition(" ")[0] for check in checks]
+    return Several(parts=tuple(checks)) if named == ["texture", "shape"] else None
+
+
+def _together(parts: Sequence[Amount | Check | Which]) -> Meaning:
+    """Parts as one meaning; 'is it slight, moderate or deep' offers all three words."""
+    offered = {part.name for part in parts if isinstance(part, Which) and not part.is_open}
+    kept = tuple(
+        part
+        for part in dict.fromkeys(parts)
+        if not (isinstance(part, Check) and part.test.partition(" ")[0] in offered)
+    )
+    return kept[0] if len(kept) == 1 else Several(parts=kept)
 
 
 def _joinable(meaning: Meaning | None) -> tuple[Amount | Check | Which, ...]:
@@ -234,7 +275,24 @@ def understood_by_model(
     ]
     weights = np.exp(np.array(logs) - max(logs))
     best = int(weights.argmax())
-    return ReadQuestion(*possible[best], confidence=float(weights[best] / weights.sum()))
+    read_best = ReadQuestion(*possible[best], confidence=float(weights[best] / weights.sum()))
+    return _as_one(plain, read_best)
+
+
+def _as_one(question: str, read: ReadQuestion) -> ReadQuestion:
+    """One yes or no for conditions that one clause asks about: 'Is it round and smooth?'."""
+    meaning = read.meaning
+    if not isinstance(meaning, Several) or not is_one_clause(question):
+        return read
+    checks = [part for part in meaning.parts if isinstance(part, Check) and not part.needed_n]
+    if len(checks) < len(meaning.parts):
+        return read
+    shown = (name for check in checks for name in check.shows)
+    both = Check(
+        condition=" and ".join(f"({check.condition})" for check in checks),
+        shows=tuple(dict.fromkeys(shown)),
+    )
+    return read._replace(meaning=both)
 
 
 def understood_in_turn(writer: QueryWriter, question: str, before: str) -> ReadQuestion | None:

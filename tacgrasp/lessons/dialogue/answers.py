@@ -131,7 +131,8 @@ def _check(asked: Check, scene: AskedScene) -> Answer:
     values = scene.values()
     is_so = bool(Expression(asked.condition).evaluate(values).value)
     yes = "yes" if is_so else "no"
-    clause = " and ".join(fact(name, scene)[1] for name in asked.shows)
+    *first, last = (fact(name, scene)[1] for name in asked.shows)
+    clause = f"{', '.join(first)} and {last}" if first else last
     if asked.needed_n:
         needed = float(Expression(asked.needed_n).evaluate(values).value or 0.0)
         clause = f"it needs {needed:.2f} N and {clause}"

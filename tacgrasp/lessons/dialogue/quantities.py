@@ -106,6 +106,15 @@ _QUANTITIES: Mapping[str, Quantity] = {
     "offset_y": Quantity(
         truth="abs(y_mm)", unit="mm", noun="distance from the horizontal midline", decimals=1
     ),
+    "leftward": Quantity(
+        truth="-x_mm", unit="mm", noun="offset to the left", decimals=1, is_signed=True
+    ),
+    "tipward": Quantity(
+        truth="-y_mm", unit="mm", noun="offset to the fingertip", decimals=1, is_signed=True
+    ),
+    "larger_offset": Quantity(
+        truth="max(abs(x_mm), abs(y_mm))", unit="mm", noun="larger of both offsets", decimals=1
+    ),
     "distance": Quantity(
         truth="hypot(x_mm, y_mm)", unit="mm", noun="distance from the center", decimals=1
     ),
@@ -124,6 +133,16 @@ _QUANTITIES: Mapping[str, Quantity] = {
     ),
     "excess": Quantity(
         truth="max(0, force_n - band_high_n)", unit="N", noun="force above the band"
+    ),
+    "to_low": Quantity(
+        truth="abs(force_n - band_low_n)",
+        unit="N",
+        noun="distance of the force from the band's lower end",
+    ),
+    "to_high": Quantity(
+        truth="abs(force_n - band_high_n)",
+        unit="N",
+        noun="distance of the force from the band's upper end",
     ),
     "mass": Quantity(truth="mass_g", unit="g", noun="mass", decimals=0),
     "holds": Quantity(truth="holds_g", unit="g", noun="heaviest load held", decimals=0),

@@ -20,6 +20,7 @@ from tacgrasp.lessons.dialogue.meaning import Meaning, truth_of
 from tacgrasp.lessons.dialogue.patterns.family import QuestionFamily
 from tacgrasp.lessons.dialogue.patterns.reading import WordingReader
 from tacgrasp.lessons.dialogue.plain_words import plain_text
+from tacgrasp.lessons.dialogue.whole_wordings import understand_whole
 
 FAMILIES: tuple[QuestionFamily, ...] = (
     *amounts.FAMILIES,
@@ -49,7 +50,7 @@ FAMILIES: tuple[QuestionFamily, ...] = (
 
 
 def understand(text: str, *, before: str = "") -> Meaning | None:
-    """Meaning of a question; None where no family has its wording.
+    """Meaning of a question; None where neither a family nor a whole wording is it.
 
     Args:
         text: The question.
@@ -64,7 +65,7 @@ def understand(text: str, *, before: str = "") -> Meaning | None:
         if family.before and (earlier is None or truth_of(earlier) not in _truths_before(family)):
             continue
         return family.build(understood.bindings, understood.numbers)
-    return None
+    return None if before else understand_whole(text)
 
 
 @cache
