@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 
-from tacgrasp.lessons.dialogue.plainer import AUXILIARY
+from tacgrasp.lessons.dialogue.plainer import AUXILIARY, plainer
 
 _BEGINS_WITH_VERB = re.compile(rf"{AUXILIARY}\b", re.I)
 _INDIRECT = re.compile(
@@ -35,6 +35,14 @@ _ANOTHER_CLAUSE = re.compile(
     re.I,
 )
 
+_CALLED_FALSE = re.compile(
+    r"(?:(?:is|was|would) it (?:be )?(?:(?:false|untrue|wrong|incorrect|inaccurate|mistaken)|"
+    r"not (?:true|correct|right|the case|so)|an? (?:mistake|error|lie))"
+    r"(?: to (?:say|write|claim|state|assume|think|note|record|put down|report))?(?: that)?) "
+    r"(?P<stated>.+)",
+    re.I,
+)
+
 
 def is_unlikely(question: str, query: str) -> bool:
     """Whether a question's form speaks against a query.
@@ -57,3 +65,9 @@ def is_unlikely(question: str, query: str) -> bool:
 def is_one_clause(question: str) -> bool:
     """Whether a question has one verb for all that it asks: 'Is it round and smooth?'."""
     return _ANOTHER_CLAUSE.search(question) is None
+
+
+def denied_statement(question: str) -> str:
+    """The statement that a question calls false ('is it untrue that it is deep?'); '' if none."""
+    found = _CALLED_FALSE.match(plainer(question))
+    return found["stated"] if found else ""

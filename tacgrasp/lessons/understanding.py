@@ -26,6 +26,7 @@ from cltp.llm.constrained.grammar import Grammar
 from cltp.llm.generation import Reply
 from policies.llm.text import DOUBTFUL_RATIO
 from tacgrasp.lessons.dialogue.answers import Answer, answer
+from tacgrasp.lessons.dialogue.conditions import check_of
 from tacgrasp.lessons.dialogue.expression import Expression
 from tacgrasp.lessons.dialogue.families.catalogue import understand
 from tacgrasp.lessons.dialogue.meaning import (
@@ -49,7 +50,7 @@ from tacgrasp.lessons.dialogue.query import (
 from tacgrasp.lessons.dialogue.scene import AskedScene
 from tacgrasp.lessons.dialogue.tolerances import tolerance_of
 from tacgrasp.lessons.query_classifier import QueryOdds
-from tacgrasp.lessons.question_form import is_one_clause, is_unlikely
+from tacgrasp.lessons.question_form import denied_statement, is_one_clause, is_unlikely
 
 PROBABLY_BELOW = 0.6
 """Probability of a word below which an answer says 'probably'. As in D_t."""
@@ -177,6 +178,8 @@ def understood_by_grammar(question: str, before: str = "") -> ReadQuestion | Non
     Some of its wordings (``MOST_JOINED`` at most) that are joined by a comma, 'and' or a question
     mark are asked together.
     """
+    if stated := denied_statement(question):
+        return _denied(understood_by_grammar(f"Is it true that {stated}", before), question)
     meaning = _with_adjective(question) or understand(question, before=before)
     if meaning is None and (plain := plainer(question)) != question:
         return understood_by_grammar(plain, before)
@@ -255,6 +258,10 @@ def understood_by_model(
     """What a question means to model and classifier; None where they come to no query."""
     if is_beyond(question):
         return None
+    if stated := denied_statement(question):
+        affirmed = understood_by_model(writer, f"Is it true that {stated}", before)
+        if denied := _denied(affirmed, question):
+            return denied
     plain = plainer(question)
     asked = asked_text(plain, before)
     grammar = query_grammar(len(asked.numbers))
@@ -277,6 +284,15 @@ def understood_by_model(
     best = int(weights.argmax())
     read_best = ReadQuestion(*possible[best], confidence=float(weights[best] / weights.sum()))
     return _as_one(plain, read_best)
+
+
+def _denied(read: ReadQuestion | None, question: str) -> ReadQuestion | None:
+    """What asks whether a condition does not hold; None where none was read."""
+    if read is None or not isinstance(check := read.meaning, Check) or not check.test:
+        return None
+    meaning = check_of(check.test, denied=not check.denied, length=check.length)
+    query = query_of(meaning, asked_text(question).numbers)
+    return ReadQuestion(query, meaning, read.confidence)
 
 
 def _as_one(question: str, read: ReadQuestion) -> ReadQuestion:

@@ -2,7 +2,8 @@
 
 Decided exactly on the automata of the families (``tacgrasp.lessons.dialogue.patterns``), which
 accept every wording that the grammar produces: what they reject, it can't produce. The wordings
-that were written whole count as the grammar's. Both sides are compared in plain words, so capitals, punctuation, contractions and spelling make no difference.
+that were written whole count as the grammar's. Both sides are compared in plain words, so capitals,
+punctuation, contractions and spelling make no difference.
 """
 
 from __future__ import annotations

@@ -18,6 +18,7 @@ from __future__ import annotations
 import re
 
 from policies.instructions.numerals import in_digits
+from tacgrasp.lessons.dialogue.turned_comparisons import turned
 
 AUXILIARY = (
     r"(?:is|are|was|were|has|have|had|do|does|did|can|could|will|would|should|must|may|might|am|"
@@ -126,7 +127,7 @@ def plainer(question: str) -> str:
         text = _asked(text, tag)
     if denied := _DENIED_FIRST.match(text):
         text = f"{_affirmed(denied[0])}{text[denied.end() :]}"
-    return text or question
+    return turned(text) or question
 
 
 def _metric(text: str) -> str:

@@ -65,6 +65,7 @@ def test_a_learned_question_is_plain_words_and_its_reply_a_query():
 
 
 def test_questions_of_any_families_are_asked_together(monkeypatch):
+    monkeypatch.setattr(question_draws, "WHOLE", 0.0)
     monkeypatch.setattr(question_draws, "TOGETHER", 1.0)
     rng = np.random.default_rng(5)
     counts, kinds = Counter(), set()
