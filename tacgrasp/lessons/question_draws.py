@@ -56,8 +56,9 @@ what stands in their tables alone."""
 
 JOINERS = (" and ", ", and ", "? ", "? And ", ", also ", "; ", ", then ", " plus ", ". ", ", ")
 
-WHOLE = 0.3
-"""Fraction of learned questions that are whole wordings. Our choice."""
+WHOLE = 0.15
+"""Fraction of learned questions that are whole wordings. Our choice: with 0.3 the classifier of
+questions reads 2 to 4 % fewer of those that are in neither."""
 
 TRIES = 20
 """Wordings that are drawn for a yes, or a no, before the last one is taken as it is."""
@@ -211,8 +212,18 @@ def query_exchange(rng: np.random.Generator) -> Exchange:
     number is read otherwise ('this one and three tenths' is 1.3) is drawn anew.
     """
     if rng.random() < WHOLE:
-        words, query = drawn_whole(rng)
-        return Exchange(prompt=slipped(words, rng), reply=query)
+        return whole_exchange(rng)
+    return composed_exchange(rng)
+
+
+def whole_exchange(rng: np.random.Generator) -> Exchange:
+    """A question that was written whole, and its query, to be learned."""
+    words, query = drawn_whole(rng)
+    return Exchange(prompt=slipped(words, rng), reply=query)
+
+
+def composed_exchange(rng: np.random.Generator) -> Exchange:
+    """A question that patterns compose, and its query, to be learned."""
     while True:
         try:
             return _query_exchange(rng)

@@ -31,8 +31,9 @@ from cltp.train.recipes import Schedule
 from cltp.train.stage import Stage, TrainingRun
 from tacgrasp.base.worker_pool import worker_pool
 from tacgrasp.console import count_progress
+from tacgrasp.lessons.dialogue.whole_wordings import whole_wordings
 from tacgrasp.lessons.query_classifier import class_of
-from tacgrasp.lessons.question_draws import query_exchange
+from tacgrasp.lessons.question_draws import WHOLE, composed_exchange, whole_exchange
 from tacgrasp.lessons.slips import FIXED
 
 BATCH, RATE, DECAY = 192, 1e-3, 0.01
@@ -86,7 +87,9 @@ def train(request: QueryClassifierRequest, console: Console) -> float:
     """
     drawn = _drawn(request, console)
     counts = Counter(name for _, name in drawn)
-    classes = tuple(sorted(name for name, times in counts.items() if times >= LEAST_DRAWN))
+    frequent = {name for name, times in counts.items() if times >= LEAST_DRAWN}
+    whole = {class_of(query) for each in whole_wordings() for _, query in each.variants()}
+    classes = tuple(sorted(frequent | whole))
     numbers = {name: number for number, name in enumerate(classes)}
     known = [(text.split(), numbers[name]) for text, name in drawn if name in numbers]
     held_out, learned = known[:HELD_OUT], known[HELD_OUT:]
@@ -100,7 +103,8 @@ def train(request: QueryClassifierRequest, console: Console) -> float:
         identity = {"questions": request.questions, "learned": len(learned), "classes": classes}
         stage = Stage("queries", run, model, schedule, identity)
         steps = range(stage.step, request.steps)
-        batches = prefetched(_batches(model, _Noise(learned), request.seed, steps))
+        noise = _Noise(learned, numbers)
+        batches = prefetched(_batches(model, noise, request.seed, steps))
 
         def losses(_: int) -> Mapping[str, Tensor]:
             batch, meant = next(batches)
@@ -134,16 +138,29 @@ def _drawn(request: QueryClassifierRequest, console: Console) -> list[tuple[str,
 def draw_block(place: tuple[int, int]) -> list[str]:
     """Lines of wordings, a tab and their classes, by seed and number of the block."""
     rng = np.random.default_rng([*place, 58])
-    drawn = [query_exchange(rng) for _ in range(BLOCK)]
+    drawn = [composed_exchange(rng) for _ in range(BLOCK)]
     return [f"{one.prompt}\t{class_of(one.reply)}" for one in drawn]
 
 
 class _Noise:
-    """What disturbs a question: unrelated words, and parts of other questions."""
+    """Questions to learn from, and what disturbs them: unrelated words, parts of other questions.
 
-    def __init__(self, known: Sequence[tuple[list[str], int]]) -> None:
+    Args:
+        known: Words and class of questions that patterns compose.
+        numbers: Number of each class.
+    """
+
+    def __init__(self, known: Sequence[tuple[list[str], int]], numbers: Mapping[str, int]) -> None:
         self.known = known
+        self._numbers = numbers
         self._strange = sorted({word for text, _ in known for word in text} - FIXED)
+
+    def drawn(self, rng: np.random.Generator) -> tuple[list[str], int]:
+        """Words and class of a question: of a composed one, or of one that was written whole."""
+        if rng.random() >= WHOLE:
+            return self.known[int(rng.integers(len(self.known)))]
+        whole = whole_exchange(rng)
+        return whole.prompt.split(), self._numbers[class_of(whole.reply)]
 
     def around(self, words: list[str], rng: np.random.Generator) -> list[str]:
         """A question with what may stand between and around its words."""
@@ -181,7 +198,7 @@ def _pool(
     noise: _Noise, rng: np.random.Generator, longest: int
 ) -> list[list[tuple[list[str], int]]]:
     """Questions of ``POOL`` steps, disturbed: batches of like lengths, in any order."""
-    chosen = (noise.known[int(i)] for i in rng.integers(len(noise.known), size=POOL * BATCH))
+    chosen = (noise.drawn(rng) for _ in range(POOL * BATCH))
     drawn = [(noise.around(words, rng)[:longest], number) for words, number in chosen]
     drawn.sort(key=lambda each: len(each[0]))
     return [drawn[int(at) * BATCH :][:BATCH] for at in rng.permutation(POOL)]
