@@ -318,7 +318,7 @@ class TrainQueriesFlags:
 
     out: Path
     questions: int = 800_000
-    steps: int = 10_000
+    steps: int = 6000
     seed: int = 0
     threads: int | None = None
 

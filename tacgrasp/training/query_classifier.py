@@ -74,7 +74,7 @@ class QueryClassifierRequest:
 
     out: Path
     questions: int = 800_000
-    steps: int = 10_000
+    steps: int = 6000
     seed: int = 0
 
 

@@ -38,6 +38,17 @@ class Refusing:
         ("Is the force above half a newton?", "check force > #1 N."),
         ("Is the force above half a pound?", "check force > #1 g."),
         ("Hang on, isn't it deeper than 0.3 mm?", "check depth > #1 mm."),
+        ("Is it false that we exceed 2 N?", "check not force > #1 N."),
+        ("Is it not true that the force is within the band?", "check not force within."),
+        ("Isn't it true that the force is within the band?", "check force within."),
+        ("Would it be wrong to say that it is not deeper than 0.3 mm?", "check depth > #1 mm."),
+        ("Does 2 N exceed what you feel?", "check force < #1 N."),
+        ("Is the dent slight, moderate, deep or very deep?", "choice depth."),
+        ("Is it a sphere, a cube or a ring?", "choice shape."),
+        ("Is it round and about 0.8 N?", "check shape sphere; check force about #1 N."),
+        ("Is it deep, rough and cut off?", "check depth deep; check texture rough; check cut."),
+        ("Is it a smooth ball?", "check texture smooth; check shape sphere."),
+        ("How far towards the fingertip is it in mm, minus for the palm?", "amount tipward mm."),
         ("We aren't pushing with more than 5 newtons, are we?", "check force > #1 N."),
         ("Is it exactly 0.3 mm deep?", "check depth about #1 mm."),
         ("Is it deeper than 0.3 and less than 0.4 mm?", "check depth #1 - #2 mm."),
@@ -154,3 +165,17 @@ def test_a_pressure_is_not_guessed():
             raise AssertionError("a pressure was put to the model")
 
     assert understood(Silent(), "Is the pressure above 10 kPa?") is None
+
+
+@pytest.mark.parametrize(
+    ("question", "text"),
+    [
+        ("Is it round and smooth?", "No, it is an ellipsoid and the surface is smooth."),
+        ("Is it an ellipsoid and smooth?", "Yes, it is an ellipsoid and the surface is smooth."),
+        ("Is it a smooth ball?", "No, the surface is smooth and it is an ellipsoid."),
+        ("Is it round, and is it smooth?", "No, it is an ellipsoid; yes, the surface is smooth."),
+        ("Is it round? Is it smooth?", "No, it is an ellipsoid; yes, the surface is smooth."),
+    ],
+)
+def test_conditions_of_one_clause_get_one_verdict(question, text):
+    assert answered(understood(Refusing(), question), HELD).answer.text == text

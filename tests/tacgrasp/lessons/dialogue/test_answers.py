@@ -53,6 +53,11 @@ def text_of(meaning, scene):
         ("band_width", "N", "0.33 N."),
         ("band_to_limit", "N", "0.35 N."),
         ("spare", "g", "+15 g."),
+        ("tipward", "mm", "+1.2 mm."),
+        ("leftward", "mm", "-0.8 mm."),
+        ("larger_offset", "mm", "1.2 mm."),
+        ("to_low", "N", "0.21 N."),
+        ("to_high", "mN", "120 mN."),
     ],
 )
 def test_a_number_comes_in_the_unit_that_is_asked_for(quantity, unit, text):
