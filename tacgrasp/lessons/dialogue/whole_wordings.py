@@ -37,7 +37,7 @@ _SAID = {
     for name, words in _PLAIN.items()
 }
 _ASKED = re.compile(r"(check (?:not )?(\w+) (?:[<>]=? )?)([a-z][a-z -]*)")
-_AN = re.compile(r"\ban (?=\{)")
+_A, _AN = (re.compile(rf"\b{article} (?=\{{)") for article in ("a", "an"))
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,7 +59,7 @@ class WholeWording:
         if not self.dimension:
             yield self.words, self.query
         for plain, word in _PLAIN.get(self.dimension, {}).items():
-            said = re.sub(r"\ba (?=\{\}s?\b)", "an " if plain[0] in "aeiou" else "a ", self.words)
+            said = _A.sub("an " if plain[0] in "aeiou" else "a ", self.words)
             yield said.format(plain), self.query.format(word)
 
     def drawn(self, rng: np.random.Generator) -> tuple[str, str]:
