@@ -85,13 +85,13 @@ def drawn_whole(rng: np.random.Generator) -> tuple[str, str]:
 def understand_whole(text: str) -> Meaning | None:
     """The meaning of a question that is one of these wordings; None where it is none."""
     words, numbers = asked_text(text)
-    known = _by_words()
-    if query := known.get(words):
+    known = _queries()
+    if query := known.get(("", words)):
         return read_query(query, numbers)
     for name, said in _SAID.items():
         if len(found := said.findall(words)) == 1:
-            query = known.get(_AN.sub("a ", said.sub("{}", words)), "")
-            if "{}" in query and f" {name} " in query:
+            query = known.get((name, _AN.sub("a ", said.sub("{}", words))))
+            if query:
                 return read_query(query.format(_PLAIN[name][found[0]]), numbers)
     return None
 
@@ -119,5 +119,6 @@ def _chances() -> NDArray[np.float64]:
 
 
 @lru_cache(maxsize=1)
-def _by_words() -> Mapping[str, str]:
-    return {each.words: each.query for each in whole_wordings()}
+def _queries() -> Mapping[tuple[str, str], str]:
+    """Queries by dimension and words."""
+    return {(each.dimension, each.words): each.query for each in whole_wordings()}
