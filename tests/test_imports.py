@@ -19,7 +19,7 @@ PACKAGES = {
     "primitives": set(),
 }
 HEAVY = ("torch", "open3d", "rtde_control", "rtde_receive", "dynamixel_sdk", "serial")
-MAX_MODULES = {"tacgrasp": 8, "cltp": 3, "sim": 3, "tacgrasp.cli": 99, "tacgrasp.lessons.dialogue": 17}
+MAX_MODULES = {"tacgrasp": 8, "cltp": 3, "sim": 3, "tacgrasp.cli": 99}
 """Modules that a folder may hold, 16 where nothing is said."""
 
 

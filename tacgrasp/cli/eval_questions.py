@@ -60,7 +60,7 @@ def main(argv: Sequence[str]) -> None:
     writable(flags.json)
     if flags.data is not None:
         contacts_in(flags.data, command="tacgrasp data generate --set full")
-    from tacgrasp.lessons.dialogue.question_file import read_questions
+    from tacgrasp.lessons.dialogue.scoring.question_file import read_questions
 
     rows = read_questions(flags.file)
     from cltp.tactile.point_layout import EVEN

@@ -34,8 +34,8 @@ from tacgrasp.lessons.dialogue.patterns.family import QuestionFamily
 from tacgrasp.lessons.dialogue.patterns.pattern import draw
 from tacgrasp.lessons.dialogue.plain_words import CONTRACTIONS, MISSPELLINGS
 from tacgrasp.lessons.dialogue.query import LostNumberError, asked_text, query_of
-from tacgrasp.lessons.dialogue.question_file import QuestionRow, question_row
 from tacgrasp.lessons.dialogue.scene import AskedScene, band_contract
+from tacgrasp.lessons.dialogue.scoring.question_file import QuestionRow, question_row
 from tacgrasp.lessons.dialogue.whole_wordings import drawn_whole
 from tacgrasp.lessons.slips import slipped
 

@@ -20,13 +20,13 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.stats import mannwhitneyu
 
-from tacgrasp.lessons.dialogue.answer_scores import AnswerScore, dimension_of, score_answer
 from tacgrasp.lessons.dialogue.answers import answer
 from tacgrasp.lessons.dialogue.facts import truth_in_words
 from tacgrasp.lessons.dialogue.families.catalogue import understand
 from tacgrasp.lessons.dialogue.meaning import AnswerKind
-from tacgrasp.lessons.dialogue.question_file import UNDECIDABLE, QuestionRow
 from tacgrasp.lessons.dialogue.scene import AskedScene
+from tacgrasp.lessons.dialogue.scoring.answer_scores import AnswerScore, dimension_of, score_answer
+from tacgrasp.lessons.dialogue.scoring.question_file import UNDECIDABLE, QuestionRow
 
 CONFIDENCE_GROUPS = 10
 

@@ -48,7 +48,7 @@ from tacgrasp.lessons.dialogue.query import (
     read_query,
 )
 from tacgrasp.lessons.dialogue.scene import AskedScene
-from tacgrasp.lessons.dialogue.tolerances import tolerance_of
+from tacgrasp.lessons.dialogue.scoring.tolerances import tolerance_of
 from tacgrasp.lessons.query_classifier import QueryOdds
 from tacgrasp.lessons.question_form import denied_statement, is_one_clause, is_unlikely
 
@@ -346,7 +346,7 @@ class Answered(NamedTuple):
     Attributes:
         answer: The answer.
         confidence: Probability that the question is understood and the answer right; of a number,
-            within its usual tolerance (``tacgrasp.lessons.dialogue.tolerances``).
+            within its usual tolerance (``tacgrasp.lessons.dialogue.scoring.tolerances``).
         interval: Of a number, what holds it in nine cases of ten, in its unit; None without one.
     """
 

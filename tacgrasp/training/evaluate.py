@@ -46,7 +46,7 @@ from policies.teacher import LESSON_MOVE_STEP_MM, teacher
 from primitives.contract import Contract
 from tacgrasp.lessons.captions import read_numbers
 from tacgrasp.lessons.dialogue.meaning import AnswerKind
-from tacgrasp.lessons.dialogue.question_file import UNDECIDABLE, read_questions
+from tacgrasp.lessons.dialogue.scoring.question_file import UNDECIDABLE, read_questions
 from tacgrasp.lessons.exchanges import BLIND
 from tacgrasp.lessons.instruction_pairs import (
     NONE,

@@ -3,7 +3,7 @@
 Contacts are of a data set's test split, or a few that are made for the purpose; all with the noise
 of a calibrated unit. Each has a contract and a mass, or not, drawn from the seed.
 
-Not here: what is right (``tacgrasp.lessons.dialogue.answer_scores``), trivial answers
+Not here: what is right (``tacgrasp.lessons.dialogue.scoring.answer_scores``), trivial answers
 (``tacgrasp.lessons.question_scores``).
 """
 
@@ -32,8 +32,8 @@ from sim.full.series import press_on_gel
 from sim.gel.layer import gel_of
 from sim.grasp.rig import BENCHMARK_SEED
 from tacgrasp.base.errors import UsageError
-from tacgrasp.lessons.dialogue.question_file import QuestionRow
 from tacgrasp.lessons.dialogue.scene import AskedScene
+from tacgrasp.lessons.dialogue.scoring.question_file import QuestionRow
 from tacgrasp.lessons.question_draws import draw_scene, drawn_rows
 from tacgrasp.lessons.question_scores import (
     AskedQuestion,

@@ -1,9 +1,10 @@
-"""Questions about a contact and their true answers: meaning, wordings, reading and scoring.
+"""Questions about a contact and their true answers: meaning, wordings and reading.
 
 A grammar (``families``) makes wordings, each with its meaning. A meaning has a truth in every
-scene, from which ``answers`` words the answer and ``answer_scores`` judges one.
+scene, from which ``answers`` words the answer.
 
-Not here: asking a model (``tacgrasp.training``, ``tacgrasp.playback``).
+Not here: judging an answer (``tacgrasp.lessons.dialogue.scoring``), asking a model
+(``tacgrasp.training``, ``tacgrasp.playback``).
 
-May import: cltp.llm.constrained, cltp.tactile, cltp.texts, policies, primitives, tacgrasp.base.
+May import: cltp.llm.constrained, cltp.tactile, cltp.texts, policies, primitives.
 """

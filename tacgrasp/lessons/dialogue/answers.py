@@ -1,6 +1,7 @@
 """True answers to questions, worded: in one word, in a sentence, or in between.
 
-Every wording reads back to the same value (``tacgrasp.lessons.dialogue.answer_reading``; tested).
+Every wording reads back to the same value
+(``tacgrasp.lessons.dialogue.scoring.answer_reading``; tested).
 An answer that needs what nobody gave says what is missing.
 """
 

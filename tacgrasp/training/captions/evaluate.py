@@ -39,7 +39,7 @@ from cltp.texts.captions import caption
 from cltp.train.stage import ProgressReport, silent
 from policies.llm.spoken import CaptionSpeaker
 from policies.llm.text import caption_text
-from tacgrasp.lessons.dialogue.question_file import read_questions
+from tacgrasp.lessons.dialogue.scoring.question_file import read_questions
 from tacgrasp.lessons.question_scores import answer_all, ask_all, figures
 from tacgrasp.policy_factory import load_llm
 from tacgrasp.pretraining.report.store import (

@@ -7,7 +7,7 @@ import pytest
 
 from tacgrasp.lessons.dialogue.families.catalogue import FAMILIES
 from tacgrasp.lessons.dialogue.meaning import AnswerKind
-from tacgrasp.lessons.dialogue.question_file import read_questions
+from tacgrasp.lessons.dialogue.scoring.question_file import read_questions
 from tacgrasp.lessons.question_draws import draw_question, draw_scene
 from tacgrasp.lessons.question_scores import answer_all, ask_all, figures, perfect_answer
 from tacgrasp.lessons.wording_coverage import coverage

@@ -2,7 +2,7 @@
 
 import pytest
 
-from tacgrasp.lessons.dialogue.question_file import question_row
+from tacgrasp.lessons.dialogue.scoring.question_file import question_row
 from tacgrasp.lessons.question_scores import (
     answer_all,
     ask_all,

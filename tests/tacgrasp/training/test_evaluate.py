@@ -22,8 +22,8 @@ from tacgrasp.__main__ import main
 from tacgrasp.lessons import instruction_pairs
 from tacgrasp.lessons.captions import read_numbers
 from tacgrasp.lessons.dialogue.meaning import AnswerKind
-from tacgrasp.lessons.dialogue.question_file import read_questions
 from tacgrasp.lessons.dialogue.scene import band_contract
+from tacgrasp.lessons.dialogue.scoring.question_file import read_questions
 from tacgrasp.lessons.exchanges import caption_exchange
 from tacgrasp.lessons.instruction_pairs import (
     MOVES,

@@ -11,7 +11,7 @@ from policies.llm.spoken import SpokenContact
 from tacgrasp.__main__ import main
 from tacgrasp.base.errors import UsageError
 from tacgrasp.lessons import understanding
-from tacgrasp.lessons.dialogue.question_file import question_row
+from tacgrasp.lessons.dialogue.scoring.question_file import question_row
 from tacgrasp.training import question_evaluation
 from tacgrasp.training.question_evaluation import FeltContact, evaluate_questions, felt_contacts
 from tests.fakes.query_odds import NoOdds

@@ -2,9 +2,9 @@
 
 import pytest
 
-from tacgrasp.lessons.dialogue.answer_reading import read_answer
-from tacgrasp.lessons.dialogue.answer_scores import score_answer
-from tacgrasp.lessons.dialogue.question_file import question_row
+from tacgrasp.lessons.dialogue.scoring.answer_reading import read_answer
+from tacgrasp.lessons.dialogue.scoring.answer_scores import score_answer
+from tacgrasp.lessons.dialogue.scoring.question_file import question_row
 from tests.fakes.question_scenes import ASIDE, FREE, HELD, UNTOUCHED
 
 

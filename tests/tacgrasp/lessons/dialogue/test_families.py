@@ -6,12 +6,12 @@ from collections import Counter
 import numpy as np
 import pytest
 
-from tacgrasp.lessons.dialogue.answer_scores import score_answer
 from tacgrasp.lessons.dialogue.answers import answer
 from tacgrasp.lessons.dialogue.expression import Expression
 from tacgrasp.lessons.dialogue.families.catalogue import FAMILIES, understand
 from tacgrasp.lessons.dialogue.meaning import AnswerKind, kind_of, truth_of
 from tacgrasp.lessons.dialogue.patterns.family import word_lists
+from tacgrasp.lessons.dialogue.scoring.answer_scores import score_answer
 from tacgrasp.lessons.question_draws import draw_question, families_by_kind
 from tests.fakes.question_scenes import HELD, SCENES, random_states
 

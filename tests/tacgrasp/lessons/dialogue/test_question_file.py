@@ -3,7 +3,7 @@ import pytest
 from tacgrasp.base.errors import UsageError
 from tacgrasp.lessons.dialogue.expression import Expression
 from tacgrasp.lessons.dialogue.meaning import AnswerKind
-from tacgrasp.lessons.dialogue.question_file import read_questions
+from tacgrasp.lessons.dialogue.scoring.question_file import read_questions
 
 HEAD = "family,question,kind,truth,tolerance\n"
 

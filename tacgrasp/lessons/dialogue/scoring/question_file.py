@@ -8,7 +8,7 @@ another, before:
                 for a text; empty for unknowable and off_topic
     tolerance   of a number: in its unit (0.3) or of the value (15%); of a yes or no: how near to
                 the threshold a contact is left out. Empty: the usual one of a number
-                (``tacgrasp.lessons.dialogue.tolerances``), 0 of yes and no
+                (``tacgrasp.lessons.dialogue.scoring.tolerances``), 0 of yes and no
     before      the question that was answered before this one
 """
 
@@ -23,7 +23,7 @@ from tacgrasp.base.csv_rows import csv_rows
 from tacgrasp.base.errors import UsageError
 from tacgrasp.lessons.dialogue.expression import Expression
 from tacgrasp.lessons.dialogue.meaning import AnswerKind
-from tacgrasp.lessons.dialogue.tolerances import Tolerance, tolerance_of
+from tacgrasp.lessons.dialogue.scoring.tolerances import Tolerance, tolerance_of
 
 KEPT_OUT = "kept_out_questions.csv"
 """Questions in ``tacgrasp.lessons`` that were written before the grammar and are not in it."""

@@ -8,13 +8,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from tacgrasp.lessons.dialogue.answer_reading import AnswerReading, Measured, read_answer
 from tacgrasp.lessons.dialogue.expression import Expression, TruthValue
 from tacgrasp.lessons.dialogue.facts import UNTOUCHED_NAMES
 from tacgrasp.lessons.dialogue.meaning import AnswerKind
 from tacgrasp.lessons.dialogue.quantities import GRAVITY_N_PER_G
-from tacgrasp.lessons.dialogue.question_file import UNDECIDABLE, QuestionRow
 from tacgrasp.lessons.dialogue.scene import NAMES, AskedScene
+from tacgrasp.lessons.dialogue.scoring.answer_reading import AnswerReading, Measured, read_answer
+from tacgrasp.lessons.dialogue.scoring.question_file import UNDECIDABLE, QuestionRow
 
 VERDICTS = ("contact", "cut")
 """Names whose value is yes or no."""
