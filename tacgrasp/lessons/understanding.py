@@ -40,7 +40,7 @@ from tacgrasp.lessons.dialogue.meaning import (
     names_of,
     truth_of,
 )
-from tacgrasp.lessons.dialogue.plainer import AUXILIARY, is_beyond, plainer
+from tacgrasp.lessons.dialogue.plainer import AUXILIARY, is_beyond, is_denied_first, plainer
 from tacgrasp.lessons.dialogue.query import (
     asked_text,
     query_grammar,
@@ -49,6 +49,7 @@ from tacgrasp.lessons.dialogue.query import (
 )
 from tacgrasp.lessons.dialogue.scene import AskedScene
 from tacgrasp.lessons.dialogue.scoring.tolerances import tolerance_of
+from tacgrasp.lessons.dialogue.written_units import numbers_in_units
 from tacgrasp.lessons.query_classifier import QueryOdds
 from tacgrasp.lessons.question_form import denied_statement, is_one_clause, is_unlikely
 
@@ -130,6 +131,13 @@ _REQUEST = re.compile(
 )
 """What may stand before a list of things that are asked for."""
 
+_AT_LENGTH = re.compile(
+    r"^in (?:one|a) (?:single )?(?:sentence|word)(?: each)?[,:] |,? (?:all )?in (?:one|a) "
+    r"(?:single |short |full |complete )?(?:sentence|word|line)(?: each)?[.?!]*$",
+    re.I,
+)
+"""How long an answer is to be; that to several questions is as long as it must be."""
+
 NOT_UNDERSTOOD = "I don't understand the question."
 
 
@@ -184,8 +192,13 @@ def understood_by_grammar(question: str, before: str = "") -> ReadQuestion | Non
     """
     if stated := denied_statement(question):
         return _denied(understood_by_grammar(f"Is it true that {stated}", before), question)
+    plain = plainer(question)
+    is_denied = is_denied_first(question) and not is_denied_first(plain)
+    # 'isn't more than 1 N felt' would be read as 'is not more than 1 N felt'
+    if is_denied and (affirmed := understood_by_grammar(plain, before)):
+        return affirmed
     meaning = _with_adjective(question) or understand(question, before=before)
-    if meaning is None and (plain := plainer(question)) != question:
+    if meaning is None and plain != question:
         return understood_by_grammar(plain, before)
     if meaning is None and not before and (parts := _joined(question)):
         meaning = _together(parts)
@@ -202,7 +215,7 @@ def understood_by_grammar(question: str, before: str = "") -> ReadQuestion | Non
 
 def _joined(question: str, most: int = MOST_JOINED) -> tuple[Amount | Check | Which, ...]:
     """The meanings of at most so many joined wordings of the grammar; none where it lacks one."""
-    question = _REQUEST.sub("", question, count=1)
+    question = _AT_LENGTH.sub("", _REQUEST.sub("", question, count=1))
     joints = list(_JOINT.finditer(question))
     if len(joints) > MOST_JOINTS:
         return ()
@@ -274,8 +287,12 @@ def understood_by_model(
         return None
     odds = QueryOdds(asked.words)
     queries = dict.fromkeys((reply.text, *islice(odds.likeliest(), NAMED)))
-    read = [(query, read_query(query, asked.numbers)) for query in queries]
-    possible = [(query, meaning) for query, meaning in read if meaning is not None]
+    possible = [
+        (query, meaning)
+        for query in queries
+        if (numbers := numbers_in_units(query, asked.words, asked.numbers)) is not None
+        and (meaning := read_query(query, numbers)) is not None
+    ]
     if not possible:
         return None
     written = writer.log_likelihoods(asked.words, [query for query, _ in possible])
@@ -287,8 +304,36 @@ def understood_by_model(
     ]
     weights = np.exp(np.array(logs) - max(logs))
     best = int(weights.argmax())
-    read_best = ReadQuestion(*possible[best], confidence=float(weights[best] / weights.sum()))
-    return _as_one(plain, read_best)
+    read = ReadQuestion(*possible[best], confidence=float(weights[best] / weights.sum()))
+    joined = None if before else _partly_known(writer, plain, read.confidence)
+    return _as_one(plain, joined if joined and _asks_more(joined, read) else read)
+
+
+def _partly_known(writer: QueryWriter, question: str, confidence: float) -> ReadQuestion | None:
+    """What wordings of the grammar and one that it lacks ask together; None of others."""
+    question = _REQUEST.sub("", question, count=1)
+    joints = list(_JOINT.finditer(question))
+    for joint in reversed(joints[:MOST_JOINTS]):
+        begin, end = question[: joint.start()], question[joint.end() :]
+        for known, lacked in ((begin, end), (end, begin)):
+            parts = _joinable(understand(known)) or _joined(known, MOST_JOINED - 1)
+            other = understood_by_model(writer, lacked) if parts else None
+            if other is None or other.confidence < ALONE_FROM:
+                continue
+            others = _joinable(other.meaning)
+            meaning = _together(parts + others if known == begin else others + parts)
+            try:
+                query = query_of(meaning, asked_text(question).numbers)
+            except ValueError:
+                continue
+            return ReadQuestion(query, meaning, min(confidence, other.confidence))
+    return None
+
+
+def _asks_more(joined: ReadQuestion, read: ReadQuestion) -> bool:
+    """Whether a reading has all parts of another one, and more."""
+    parts, fewer = (set(each.query.rstrip(".").split("; ")) for each in (joined, read))
+    return fewer < parts
 
 
 def _denied(read: ReadQuestion | None, question: str) -> ReadQuestion | None:

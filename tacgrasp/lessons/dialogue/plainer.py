@@ -97,12 +97,21 @@ _IMPERIAL = (
         "grams",
     ),
     (
+        re.compile(
+            rf"(?:{_NUMBER}|\ban?|\bone)\s*-?"
+            r"(?:cm²|cm2|cm\^2|(?:square|sq\.?) ?(?:cm|centimet(?:re|er)s?))",
+            re.I,
+        ),
+        100,
+        "mm²",
+    ),
+    (
         re.compile(rf"{_NUMBER}\s*-?(?:inch(?:es)?|in(?=\.?$| deep| (?:of|from|off|to)\b))", re.I),
         25.4,
         "mm",
     ),
 )
-"""Numbers in pounds, ounces and inches: the unit's size, and the unit that has it."""
+"""Numbers in pounds, ounces, inches and cm²: the unit's size, and the unit that has it."""
 
 _UNREAD = re.compile(
     rf"{_NUMBER}\s*(?:[kmh]?pa\b|(?:kilo|mega|hecto)?pascals?\b|psi\b|bars?\b|atm\b)|"
@@ -114,6 +123,11 @@ _UNREAD = re.compile(
 def is_beyond(question: str) -> bool:
     """Whether a question has a pressure or a multiple that no query has, so that none is near."""
     return _UNREAD.search(in_digits(question.lower())) is not None
+
+
+def is_denied_first(question: str) -> bool:
+    """Whether a question begins with a denied verb, which expects 'yes': 'isn't it deep?'."""
+    return _DENIED_FIRST.match(question) is not None
 
 
 def plainer(question: str) -> str:
@@ -131,14 +145,14 @@ def plainer(question: str) -> str:
 
 
 def _metric(text: str) -> str:
-    """A text with words for signs, and grams and millimetres for pounds, ounces and inches."""
+    """A text with words for signs, and grams and millimetres for pounds, ounces, inches and cm²."""
     for sign, words in _SIGNS:
         text = sign.sub(words, text)
-    if not re.search(r"pound|\blb|ounce|\boz|inch|\din\b|\d in\b", text, re.I):
+    if not re.search(r"pound|\blb|ounce|\boz|inch|\din\b|\d in\b|cm²|cm2|cm\^2|sq", text, re.I):
         return text
     digits = in_digits(text.lower())
     for pattern, size, unit in _IMPERIAL:
-        digits = pattern.sub(lambda match: f"{float(match[1]) * size:.4g} {unit}", digits)  # noqa: B023
+        digits = pattern.sub(lambda match: f"{float(match[1] or 1) * size:.4g} {unit}", digits)  # noqa: B023
     return digits
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from functools import cache
 
 from tacgrasp.lessons.dialogue.families.amounts import agreed as amounts
@@ -21,6 +22,12 @@ from tacgrasp.lessons.dialogue.patterns.family import QuestionFamily
 from tacgrasp.lessons.dialogue.patterns.reading import WordingReader
 from tacgrasp.lessons.dialogue.plain_words import plain_text
 from tacgrasp.lessons.dialogue.whole_wordings import understand_whole
+
+_HYPHENED_CELL = re.compile(
+    r"(?:\b(?:in|at|on) )?(?:\bthe )?\b(?:middle|mid|cent(?:re|er))-(left|right)\b(?! ?(?:part|cell))",
+    re.I,
+)
+"""'Is it at the middle-right': without the hyphen its end would be read as 'middle, right?'."""
 
 FAMILIES: tuple[QuestionFamily, ...] = (
     *amounts.FAMILIES,
@@ -57,7 +64,7 @@ def understand(text: str, *, before: str = "") -> Meaning | None:
         before: The question before it; a follow-up is understood only after one that it fits.
     """
     earlier = understand(before) if before else None
-    reader = WordingReader(plain_text(text))
+    reader = WordingReader(plain_text(_HYPHENED_CELL.sub(r"in the middle \1 part", text)))
     for family in sorted(FAMILIES, key=lambda each: bool(each.before) != bool(before)):
         understood = reader.understand(family.node)
         if understood is None:

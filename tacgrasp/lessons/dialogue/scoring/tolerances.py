@@ -23,6 +23,7 @@ TOLERANCES: Mapping[str, Tolerance] = {
     "y_mm": Tolerance(absolute=1.0),
     "depth_mm": Tolerance(absolute=0.05, fraction=0.15),
     "area_percent": Tolerance(absolute=1.0, fraction=0.25),
+    "area_mm2": Tolerance(absolute=3.0, fraction=0.25),
     "force_n": Tolerance(absolute=0.1, fraction=0.25),
     "holds_g": Tolerance(absolute=5.0, fraction=0.25),
     "gram_n": Tolerance(absolute=0.01, fraction=0.02),

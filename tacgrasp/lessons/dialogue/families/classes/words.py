@@ -232,7 +232,7 @@ def _place(word: str) -> str:
         said += f"|on the {side} at (half|middle) height|halfway up the {side} side"
     elif word.endswith("center"):
         row = word.removesuffix("-center")
-        said += f"|at the {row} in the (middle|center)"
+        said += f"|at the {row} in the (middle|center)|{row} (center|middle)"
     else:
         row, _, column = word.partition("-")
         up = {"top": "up", "bottom": "down"}[row]
