@@ -310,9 +310,12 @@ def understood_by_model(
 
 
 def _partly_known(writer: QueryWriter, question: str, confidence: float) -> ReadQuestion | None:
-    """What wordings of the grammar and one that it lacks ask together; None of others."""
+    """What wordings of the grammar and one that it lacks ask together; None of others.
+
+    A comma alone may stand before an addition: 'the force, in plain newtons'.
+    """
     question = _REQUEST.sub("", question, count=1)
-    joints = list(_JOINT.finditer(question))
+    joints = [joint for joint in _JOINT.finditer(question) if joint[0].strip() != ","]
     for joint in reversed(joints[:MOST_JOINTS]):
         begin, end = question[: joint.start()], question[joint.end() :]
         for known, lacked in ((begin, end), (end, begin)):

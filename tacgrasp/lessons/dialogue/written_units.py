@@ -41,9 +41,11 @@ def numbers_in_units(query: str, words: str, numbers: Sequence[float]) -> tuple[
         numbers: Its numbers.
 
     Returns:
-        All numbers; None where a number has a unit of something else.
+        All numbers; None where a number has a unit of something else, or one of two units.
     """
     written = _written(words)
+    if len(written) != len(numbers):  # the question has a '#' of its own
+        return tuple(numbers)
     scaled = list(numbers)
     for part in query.split("; "):
         is_mass = _OF_MASSES.search(part) is not None

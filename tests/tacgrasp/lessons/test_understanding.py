@@ -6,6 +6,7 @@ from types import SimpleNamespace
 import pytest
 
 from tacgrasp.lessons import understanding
+from tacgrasp.lessons.dialogue.query import read_query
 from tacgrasp.lessons.query_classifier import QueryOdds
 from tacgrasp.lessons.understanding import (
     NOT_UNDERSTOOD,
@@ -63,6 +64,41 @@ def test_the_numbers_of_a_question_come_from_the_question():
     assert given.answer.text == "Yes, the force is 0.83 N."
     assert (given.answer.value, given.answer.decidable) == (True, True)
     assert given.confidence == pytest.approx(0.81)
+
+
+def test_a_number_comes_in_the_unit_of_the_query():
+    asked = understood(Writer("check x > #1 mm."), "Is x over 500 microns?")
+    assert asked.meaning.condition == "x_mm > 0.5"
+
+
+def test_what_takes_a_force_for_a_mass_is_not_named(monkeypatch):
+    monkeypatch.setattr(Odds, "rival", "check stays #2 g.")
+    asked = understood(Writer("check stays #1 g."), "Is 0.5 N enough to hold 30 g?")
+    assert asked.query == "check stays #2 g."
+
+
+class Forgetful(Writer):
+    """Reads the last part of a question alone."""
+
+    def __init__(self):
+        super().__init__("word texture.")
+
+
+@pytest.mark.parametrize(
+    ("known", "query"),
+    [
+        ({"How deep is it": "amount depth mm."}, "amount depth mm; word texture."),
+        ({}, "word texture."),
+        ({"How deep is it": "why step."}, "word texture."),
+    ],
+)
+def test_a_part_that_the_grammar_knows_is_not_lost(monkeypatch, known, query):
+    def meant(text, **_):
+        return read_query(known[text]) if text in known else None
+
+    monkeypatch.setattr(understanding, "understand", meant)
+    asked = understood(Forgetful(), "How deep is it, and how would its skin feel?")
+    assert asked.query == query
 
 
 def test_a_word_in_doubt_is_probable_and_lowers_the_confidence():

@@ -20,6 +20,7 @@ from tacgrasp.lessons.dialogue.plainer import is_beyond, plainer
         ("Could I trouble you for the depth?", "give me the depth?"),
         ("Give me the force, so I may put it into the report", "Give me the force"),
         ("Is it over 0.5 pounds?", "is it over 226.8 grams?"),
+        ("Is the patch over 2 sq. cm?", "is the patch over 200 mm²?"),
         ("Is it deeper than a tenth of an inch?", "is it deeper than 2.54 mm?"),
     ],
 )

@@ -35,3 +35,8 @@ def test_numbers_come_in_the_units_of_the_query(question, query, numbers):
 def test_a_query_that_takes_a_number_for_something_else_is_none(question, query):
     asked = asked_text(question)
     assert numbers_in_units(query, asked.words, asked.numbers) is None
+
+
+def test_a_hash_of_the_question_itself_changes_nothing():
+    asked = asked_text("Is # over 3 N?")
+    assert numbers_in_units("check force > #1 N.", "is # over # n", asked.numbers) == asked.numbers
