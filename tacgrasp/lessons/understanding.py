@@ -40,7 +40,13 @@ from tacgrasp.lessons.dialogue.meaning import (
     names_of,
     truth_of,
 )
-from tacgrasp.lessons.dialogue.plainer import AUXILIARY, is_beyond, is_denied_first, plainer
+from tacgrasp.lessons.dialogue.plainer import (
+    AUXILIARY,
+    in_words,
+    is_beyond,
+    is_denied_first,
+    plainer,
+)
 from tacgrasp.lessons.dialogue.query import (
     asked_text,
     query_grammar,
@@ -192,6 +198,7 @@ def understood_by_grammar(question: str, before: str = "") -> ReadQuestion | Non
     """
     if stated := denied_statement(question):
         return _denied(understood_by_grammar(f"Is it true that {stated}", before), question)
+    question = in_words(question)
     plain = plainer(question)
     is_denied = is_denied_first(question) and not is_denied_first(plain)
     # 'isn't more than 1 N felt' would be read as 'is not more than 1 N felt'

@@ -71,6 +71,8 @@ _POLITE_VERB = re.compile(
     re.I,
 )
 _SIGNS = (
+    (re.compile(r"\|\s*([xy])\s*\|", re.I), r"abs \1"),
+    (re.compile(r"\b(limit|ceiling) ?[-−] ?(?=(?:the )?force\b)", re.I), r"\1 minus "),
     (re.compile(r" ?(?:>=|≥) ?"), " at least "),
     (re.compile(r" ?(?:<=|≤) ?"), " at most "),
     (re.compile(r" ?> ?"), " more than "),
@@ -125,6 +127,13 @@ def is_beyond(question: str) -> bool:
     return _UNREAD.search(in_digits(question.lower())) is not None
 
 
+def in_words(question: str) -> str:
+    """A question with words for its signs, which plain words lack: 'x > 1' is not 'x 1'."""
+    for sign, words in _SIGNS:
+        question = sign.sub(words, question)
+    return question
+
+
 def is_denied_first(question: str) -> bool:
     """Whether a question begins with a denied verb, which expects 'yes': 'isn't it deep?'."""
     return _DENIED_FIRST.match(question) is not None
@@ -146,8 +155,7 @@ def plainer(question: str) -> str:
 
 def _metric(text: str) -> str:
     """A text with words for signs, and grams and millimetres for pounds, ounces, inches and cm²."""
-    for sign, words in _SIGNS:
-        text = sign.sub(words, text)
+    text = in_words(text)
     if not re.search(r"pound|\blb|ounce|\boz|inch|\din\b|\d in\b|cm²|cm2|cm\^2|sq", text, re.I):
         return text
     digits = in_digits(text.lower())
