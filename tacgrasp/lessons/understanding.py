@@ -48,6 +48,7 @@ from tacgrasp.lessons.dialogue.plainer import (
     plainer,
 )
 from tacgrasp.lessons.dialogue.query import (
+    AMOUNTS,
     asked_text,
     query_grammar,
     query_of,
@@ -55,7 +56,8 @@ from tacgrasp.lessons.dialogue.query import (
 )
 from tacgrasp.lessons.dialogue.scene import AskedScene
 from tacgrasp.lessons.dialogue.scoring.tolerances import tolerance_of
-from tacgrasp.lessons.dialogue.written_units import numbers_in_units
+from tacgrasp.lessons.dialogue.sided_questions import to_named_side
+from tacgrasp.lessons.dialogue.written_units import in_asked_unit, numbers_in_units
 from tacgrasp.lessons.query_classifier import QueryOdds
 from tacgrasp.lessons.question_form import denied_statement, is_one_clause, is_unlikely
 
@@ -65,6 +67,12 @@ PROBABLY_BELOW = 0.6
 SURE_FROM = 0.9
 """Fraction of the numbers that may be true, under which an answer must hold to be said without
 'probably'. As many lie in their intervals."""
+
+UNSURE_BELOW = 0.4
+"""Probability of a query below which the answer says that another question may have been meant. Our
+choice: of so unsure readings of the kept-out questions every second is wrong."""
+
+UNSURE = "Perhaps you meant something else."
 
 DRAWS = 64
 """Numbers that may be true, for each answer. Our choice: a tenth of them is six."""
@@ -211,12 +219,13 @@ def understood_by_grammar(question: str, before: str = "") -> ReadQuestion | Non
         meaning = _together(parts)
     if meaning is None:
         return None
-    numbers = asked_text(question, before).numbers
+    asked = asked_text(question, before)
     try:
-        query = query_of(meaning, numbers)
+        query = query_of(meaning, asked.numbers)
     except ValueError:  # it has a number that is no number of the question: 'half a kilo'
         return None
-    read = read_query(query, numbers)
+    query = to_named_side(query, asked.words)
+    read = read_query(query, asked.numbers)
     return None if read is None else _as_one(question, ReadQuestion(query, read, 1.0))
 
 
@@ -311,9 +320,18 @@ def understood_by_model(
     ]
     weights = np.exp(np.array(logs) - max(logs))
     best = int(weights.argmax())
-    read = ReadQuestion(*possible[best], confidence=float(weights[best] / weights.sum()))
+    query, meaning = possible[best]
+    if (told := _as_told(query, asked.words)) != query:
+        numbers = numbers_in_units(told, asked.words, asked.numbers)
+        query, meaning = told, read_query(told, numbers or asked.numbers) or meaning
+    read = ReadQuestion(query, meaning, confidence=float(weights[best] / weights.sum()))
     joined = None if before else _partly_known(writer, plain, read.confidence)
     return _as_one(plain, joined if joined and _asks_more(joined, read) else read)
+
+
+def _as_told(query: str, words: str) -> str:
+    """A query with the side and the unit that the question names."""
+    return in_asked_unit(to_named_side(query, words), words, AMOUNTS)
 
 
 def _partly_known(writer: QueryWriter, question: str, confidence: float) -> ReadQuestion | None:
@@ -416,7 +434,7 @@ def answered(
     words: Mapping[str, float] | None = None,
     ends: Mapping[str, tuple[float, float]] | None = None,
 ) -> Answered:
-    """The answer to a question about what is felt.
+    """The answer to a question about what is felt, with the doubt whether it was understood.
 
     Args:
         asked: What the question means; None where it is not understood.
@@ -427,7 +445,21 @@ def answered(
     if asked is None:
         unclear = Answer(text=NOT_UNDERSTOOD, kind=AnswerKind.UNKNOWABLE, decidable=False)
         return Answered(unclear, 0.0)
+    told = _answered(asked, scene, words, ends)
+    if asked.confidence >= UNSURE_BELOW or not told.answer.decidable:
+        return told
+    return told._replace(answer=replace(told.answer, text=f"{told.answer.text} {UNSURE}"))
+
+
+def _answered(
+    asked: ReadQuestion,
+    scene: AskedScene,
+    words: Mapping[str, float] | None,
+    ends: Mapping[str, tuple[float, float]] | None,
+) -> Answered:
     given = answer(asked.meaning, scene)
+    if isinstance(asked.meaning, Several) and given.decidable and scene.state.in_contact:
+        return _answered_together(asked, asked.meaning, given, scene, words, ends)
     told = [(words or {}).get(name, 1.0) for name in names_of(asked.meaning)]
     interval, holds, holds_well = None, 1.0, True
     if given.decidable and given.value is not None and scene.state.in_contact and ends:
@@ -446,6 +478,32 @@ def answered(
     if given.decidable and (min(told, default=1.0) < PROBABLY_BELOW or not holds_well):
         given = replace(given, text=_probably(given))
     return Answered(given, asked.confidence * math.prod(told) * holds, interval)
+
+
+def _answered_together(
+    asked: ReadQuestion,
+    meaning: Several,
+    given: Answer,
+    scene: AskedScene,
+    words: Mapping[str, float] | None,
+    ends: Mapping[str, tuple[float, float]] | None,
+) -> Answered:
+    """The answer to several questions, with the doubt of each: in its clause and in all."""
+    sure = asked._replace(confidence=1.0)
+    parts = [_answered(sure._replace(meaning=part), scene, words, ends) for part in meaning.parts]
+    confidence = asked.confidence * math.prod(part.confidence for part in parts)
+    clauses = given.text.rstrip(".").split("; ")
+    if len(clauses) == len(parts):
+        for place, (clause, part) in enumerate(zip(clauses, parts, strict=True)):
+            if part.answer.text != answer(meaning.parts[place], scene).text:
+                doubted = _probably(replace(part.answer, text=f"{clause}."))
+                clauses[place] = doubted.rstrip(".") if place == 0 else _uncapital(doubted)
+        given = replace(given, text=f"{'; '.join(clauses)}.")
+    return Answered(given, confidence)
+
+
+def _uncapital(text: str) -> str:
+    return f"{text[:1].lower()}{text[1:].rstrip('.')}"
 
 
 def _near(meaning: Meaning, scene: AskedScene, scenes: Sequence[AskedScene]) -> float:
@@ -475,6 +533,8 @@ def _possible(scene: AskedScene, ends: Mapping[str, tuple[float, float]]) -> Ite
 
 def _probably(given: Answer) -> str:
     """An answer that may be wrong, as text; a yes or no still stands first."""
+    if given.kind is AnswerKind.NUMBER and " is " in given.text:
+        return given.text.replace(" is ", " is about ", 1)
     if given.kind is AnswerKind.YES_NO:
         verdict, comma, clause = given.text.rstrip(".").partition(",")
         return f"{verdict}, probably:{clause}." if comma else f"{verdict}, probably."

@@ -134,8 +134,9 @@ def check_of(test: str, *, denied: bool = False, length: Length = Length.FREE) -
         expression, factor = _measured(name, unit)
         condition, shows = f"{expression} {sign} {_plain(number)}{factor}", name
     elif between := _BETWEEN.fullmatch(test):
-        name, low, high, unit = between.groups()
+        name, *ends, unit = between.groups()
         expression, factor = _measured(name, unit)
+        low, high = sorted(ends, key=float)
         condition = f"{_plain(low)}{factor} <= {expression} <= {_plain(high)}{factor}"
         shows = name
     elif near := _NEAR.fullmatch(test):

@@ -87,43 +87,45 @@ _PURPOSE = re.compile(
     r",? (?:just the (?:figure|number),? )?so (?:that )?(?:i|we) (?:may|can|could) .*$", re.I
 )
 _NUMBER = r"(?<![\d.,])(\d+(?:\.\d+)?)"
-_IMPERIAL = (
+_FOREIGN = (
+    (r"(?:pounds?|lbs?|lbf)(?:[ -](?:of )?force)?\b", 453.59237, "grams"),
+    (r"(?:ounces?|oz|ozf)(?:[ -](?:of )?force)?\b", 28.349523, "grams"),
+    (r"(?:kgf|kp|kilograms?[ -](?:of )?force|kiloponds?)\b", 1000, "grams"),
+    (r"(?:kn|kilonewtons?)\b", 1000, "newtons"),
+    (r"(?:[µu]n|micronewtons?)\b", 1e-6, "newtons"),
+    (r"(?:dyn|dynes?)\b", 1e-5, "newtons"),
     (
-        re.compile(rf"{_NUMBER}\s*-?(?:pounds?|lbs?|lbf)(?:[ -](?:of )?force)?\b", re.I),
-        453.59237,
-        "grams",
-    ),
-    (
-        re.compile(rf"{_NUMBER}\s*-?(?:ounces?|oz|ozf)(?:[ -](?:of )?force)?\b", re.I),
-        28.349523,
-        "grams",
-    ),
-    (
-        re.compile(
-            rf"(?:{_NUMBER}|\ban?|\bone)\s*-?"
-            r"(?:cm²|cm2|cm\^2|(?:square|sq\.?) ?(?:cm|centimet(?:re|er)s?))",
-            re.I,
-        ),
+        r"(?:cm²|cm2|cm\^2|(?:square|sq\.?) ?(?:cm|centimet(?:re|er)s?))",
         100,
         "mm²",
     ),
-    (
-        re.compile(rf"{_NUMBER}\s*-?(?:inch(?:es)?|in(?=\.?$| deep| (?:of|from|off|to)\b))", re.I),
-        25.4,
-        "mm",
-    ),
+    (r"(?:inch(?:es)?|in(?=\.?$| deep| (?:of|from|off|to)\b))", 25.4, "mm"),
+    (r"(?:thou|mils?)\b", 0.0254, "mm"),
+    (r"(?:m|met(?:re|er)s?)\b(?![²^/])", 1000, "mm"),
+    (r"(?:nm|nanomet(?:re|er)s?)\b", 1e-6, "mm"),
 )
-"""Numbers in pounds, ounces, inches and cm²: the unit's size, and the unit that has it."""
+_IN_FOREIGN_UNITS = tuple(
+    (re.compile(rf"(?:{_NUMBER}\s*-?|\b(?:an?|one)[ -]){unit}", re.I), size, known)
+    for unit, size, known in _FOREIGN
+)
+"""Numbers in units that no query has: the unit's size, and the unit that has it."""
 
+_PRESSURE = r"(?:[kmh]?pa|(?:kilo|mega|hecto)?pascals?|psi|bars?|atm)\b"
 _UNREAD = re.compile(
-    rf"{_NUMBER}\s*(?:[kmh]?pa\b|(?:kilo|mega|hecto)?pascals?\b|psi\b|bars?\b|atm\b)|"
-    r"\b(?:[4-9]|\d\d+) times (?:that|this|the|it|as)\b",
+    rf"(?:{_NUMBER}|\bin|\bof|\bmany)\s*{_PRESSURE}|"
+    r"\b(?:[4-9]|\d\d+) times (?:that|this|the|it|as)\b|"
+    rf"{_NUMBER}\s*(?:%|\w+)?\s+(?:more|extra|less|additional|further)\b(?! than)|"
+    rf"\badd(?:ing|ed)? (?:another |an extra )?{_NUMBER}|"
+    rf"\b(?:increas|rais|reduc|lower)(?:e|es|ed|ing)? (?:\w+ ){{0,3}}?by {_NUMBER}|"
+    rf"^(?:is|are|would|will|does|do|can) {_NUMBER} ?\w+ (?:be |lie |fall )?"
+    r"(?:with)?in(?:side)? (?:the|our) (?:\w+ )?(?:band|window|range)",
     re.I,
 )
+"""Pressures, multiples, sums of a felt and a named number, and a named force against the band."""
 
 
 def is_beyond(question: str) -> bool:
-    """Whether a question has a pressure or a multiple that no query has, so that none is near."""
+    """Whether a question is about what no query has, so that none is near."""
     return _UNREAD.search(in_digits(question.lower())) is not None
 
 
@@ -154,14 +156,18 @@ def plainer(question: str) -> str:
 
 
 def _metric(text: str) -> str:
-    """A text with words for signs, and grams and millimetres for pounds, ounces, inches and cm²."""
+    """A text with words for signs, and numbers in units that queries have."""
     text = in_words(text)
-    if not re.search(r"pound|\blb|ounce|\boz|inch|\din\b|\d in\b|cm²|cm2|cm\^2|sq", text, re.I):
-        return text
     digits = in_digits(text.lower())
-    for pattern, size, unit in _IMPERIAL:
-        digits = pattern.sub(lambda match: f"{float(match[1] or 1) * size:.4g} {unit}", digits)  # noqa: B023
-    return digits
+    known = digits
+    for pattern, size, unit in _IN_FOREIGN_UNITS:
+        known = pattern.sub(lambda match: f"{_plain(float(match[1] or 1) * size)} {unit}", known)  # noqa: B023
+    return text if known == digits else known
+
+
+def _plain(number: float) -> str:
+    """Four digits of a number, without an exponent."""
+    return f"{float(f'{number:.4g}'):.10f}".rstrip("0").rstrip(".")
 
 
 def _asked(text: str, tag: re.Match[str]) -> str:

@@ -29,6 +29,8 @@ _BEHIND_NUMBER = re.compile(
     "#(?: (?:" + "|".join(f"({spelled})" for spelled in _SPELLED) + r")(?![^ ]))?"
 )
 _GIVEN_UNIT = re.compile(r"#(\d)(?: (?:\+-|-) #(\d))? ([^\s.;]+)")
+_ONE_AMOUNT = re.compile(r"amount ([a-z_ ]+) (\S+?)( in a \w+)?\.")
+_ASKED_UNIT = re.compile(rf"\b(?:in|as|how many) ({'|'.join(_SPELLED)})(?![^ ])")
 _OF_MASSES = re.compile(r"\b(?:slips|stays|holds|mass|spare|needed)\b")
 
 
@@ -67,6 +69,25 @@ def numbers_in_units(query: str, words: str, numbers: Sequence[float]) -> tuple[
                     return None
                 scaled[place] = number
     return tuple(scaled)
+
+
+def in_asked_unit(query: str, words: str, units_of: Mapping[str, Sequence[str]]) -> str:
+    """A query for one amount, in the unit that the question asks for.
+
+    Args:
+        query: The query.
+        words: The question in plain words.
+        units_of: Units that each amount can be asked for in.
+    """
+    asked = _ONE_AMOUNT.fullmatch(query)
+    named = {_unit_of(match[1]) for match in _ASKED_UNIT.finditer(words)}
+    if asked is None or len(named) != 1 or not named <= set(units_of.get(asked[1], ())):
+        return query
+    return f"amount {asked[1]} {named.pop()}{asked[3] or ''}."
+
+
+def _unit_of(spelled: str) -> str:
+    return next(unit for said, unit in _SPELLED.items() if re.fullmatch(said, spelled))
 
 
 def _written(words: str) -> list[str]:

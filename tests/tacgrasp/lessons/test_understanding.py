@@ -71,6 +71,37 @@ def test_a_number_comes_in_the_unit_of_the_query():
     assert asked.meaning.condition == "x_mm > 0.5"
 
 
+def test_a_side_that_is_named_is_the_side_that_is_counted_to():
+    asked = understood(Writer("check x > #1 mm."), "Is it more than 2 mm left of the middle?")
+    assert (asked.query, asked.meaning.condition) == ("check x < -#1 mm.", "x_mm < -2")
+
+
+def test_a_unit_that_is_asked_for_is_the_one_that_is_given():
+    asked = understood(Writer("amount limit N."), "Which limit have I, in mN?")
+    assert asked.query == "amount limit mN."
+
+
+@pytest.mark.parametrize(
+    "question",
+    [
+        "Would 0.5 N more be too much?",
+        "Would 30 % more be too much?",
+        "What's the pressure in kPa?",
+        "Is 0.2 N within the band?",
+        "If I raise it by 0.2 N, is that too much?",
+    ],
+)
+def test_what_no_query_has_is_not_taken_for_something_near(question):
+    assert understood(Writer("check force above."), question) is None
+
+
+@pytest.mark.parametrize(
+    "question", ["Is it more than 0.5 N?", "Is 0.5 mm or less felt?", "Is it 2 N less than that?"]
+)
+def test_what_sounds_like_it_is_still_read(question):
+    assert understood(Writer("check force above."), question) is not None
+
+
 def test_what_takes_a_force_for_a_mass_is_not_named(monkeypatch):
     monkeypatch.setattr(Odds, "rival", "check stays #2 g.")
     asked = understood(Writer("check stays #1 g."), "Is 0.5 N enough to hold 30 g?")
@@ -159,6 +190,26 @@ def test_a_question_that_comes_to_nothing_is_not_answered(monkeypatch):
         assert given.answer.text == NOT_UNDERSTOOD
         assert not given.answer.decidable
         assert given.confidence == 0
+
+
+def test_an_unsure_reading_says_so():
+    asked = ReadQuestion("check touched.", read_query("check touched."), 0.39)
+    text = answered(asked, HELD).answer.text
+    assert text == "Yes, something touches the pad. Perhaps you meant something else."
+    assert answered(asked._replace(confidence=0.4), HELD).answer.text == text.split(". ")[0] + "."
+
+
+def test_each_of_several_questions_keeps_its_doubt():
+    ends = {"depth_mm": (0.12, 0.3), "force_n": (0.4, 1.6)}
+    asked = ReadQuestion("", read_query("check force > #1 N; amount depth mm.", (0.8,)), 1.0)
+    given = answered(asked, HELD, ends=ends)
+    assert given.answer.text == "Yes, probably; the depth is about 0.19 mm."
+    alone = [
+        answered(asked._replace(meaning=part), HELD, ends=ends) for part in asked.meaning.parts
+    ]
+    assert given.confidence == pytest.approx(alone[0].confidence * alone[1].confidence)
+    assert given.confidence < 0.6
+    assert answered(asked, HELD).answer.text == "Yes; the depth is 0.19 mm."
 
 
 def test_an_untouched_pad_still_has_a_contract():

@@ -1,0 +1,60 @@
+"""Questions about one side: 'how far left' counts to the left, where x counts to the right.
+
+    How far left is it?                 amount x mm.          becomes amount leftward mm.
+    Is it more than 2 mm left of it?    check x > #1 mm.      becomes check x < -#1 mm.
+    How far down is it?                 amount y mm.          becomes amount tipward mm.
+
+Readers take such a question for one about the coordinate. What names both sides, or a sign, is one.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import NamedTuple
+
+
+class _Side(NamedTuple):
+    """A side whose coordinate is negative: its coordinate, its amount, its words, the other's."""
+
+    coordinate: str
+    amount: str
+    named: re.Pattern[str]
+    other: re.Pattern[str]
+
+
+_MIDDLE = r"(?:the |our |its )?(?:\w+ )?(?:middle|cent(?:re|er)|midpoint|origin)"
+_SIDES = (
+    _Side("x", "leftward", re.compile(r"\bleft(?:wards?)?\b"), re.compile(r"\bright(?:wards?)?\b")),
+    _Side(
+        "y",
+        "tipward",
+        re.compile(
+            rf"\b(?:down|downwards?|fingertip|tip|tipwards?|(?:below|under|beneath) {_MIDDLE})\b"
+        ),
+        re.compile(rf"\b(?:up|upwards?|palm|palmwards?|(?:above|over) {_MIDDLE})\b"),
+    ),
+)
+_SIGN = re.compile(r"\b(?:minus|negative|plus|positive|sign|signed)\b")
+_TURNED = {">": "<", "<": ">", ">=": "<=", "<=": ">="}
+
+
+def to_named_side(query: str, words: str) -> str:
+    """A query about a coordinate, counted to the side that the question names.
+
+    Args:
+        query: The query (``tacgrasp.lessons.dialogue.query``).
+        words: The question in plain words.
+    """
+    if _SIGN.search(words):
+        return query
+    for side in _SIDES:
+        if side.named.search(words) and not side.other.search(words):
+            query = re.sub(rf"\bamount {side.coordinate}\b", f"amount {side.amount}", query)
+            query = re.sub(
+                rf"\bcheck (not )?{side.coordinate} (>=|<=|>|<) #",
+                lambda match, name=side.coordinate: (  # type: ignore[misc]
+                    f"check {match[1] or ''}{name} {_TURNED[match[2]]} -#"
+                ),
+                query,
+            )
+    return query
