@@ -12,7 +12,7 @@ REFUSES = r"(?:refus(?:e|es|ing)|declin(?:e|es|ing)|abstain(?:ing)? from|desist(
 """Verbs of not doing."""
 
 _NOT = re.compile(
-    r"\b(?:not|never|without|avoid\w*|nor|neither|no need to|no reason to|prevent\w*|instead of|rather than|refrain\w* from|stop|"
+    r"\b(?:not|never|without|avoid\w*|nor|neither|no need to|no reason|prevent\w*|instead of|rather than|refrain\w* from|stop|"
     rf"{FORBIDDEN}|{NO_CASE}|{REFUSES}|"
     r"keep(?:s|ing)? (?:it |me |you )?from|until|till|before|unless|when i|once i|if i|after i|than|risk of|afraid of|fear of|danger of|do not want|careful not|mind|watch(?: out for)?|careful (?:of|with|about)|beware of|clear of|away from|quit|free of)\b"
 )

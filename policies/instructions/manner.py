@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from policies.instructions import words
+from policies.instructions.denials import FORBIDDEN_AFTER
 from policies.instructions.text import CLAUSE, sentences
 
 
@@ -73,8 +74,10 @@ _NEUTRAL = words.groups("neutral")
 _DENIAL = re.compile(rf"\b{words.any_of('denial')}\b")
 _VERY = re.compile(rf"\b{words.any_of('very')}\b")
 _TOO = re.compile(
-    r"\b(not|never|nothing|none|without|avoid\w*|nor|stop|no)\b((?: \w+){0,4}?) (?:too|over|overly|excessive(?:ly)?|unnecessarily)\b"
+    r"\b(not|never|nothing|none|without|avoid\w*|nor|stop|no|forbidden|forbid|prohibited|refuse|refrain from|keep from)\b((?: \w+){0,4}?) (?:too|over|overly|excessive(?:ly)?|unnecessarily)\b"
 )
+_TOO_FORBIDDEN = re.compile(rf"\b(?:too|overly) (?=\w+[^,;.]{{0,30}} {FORBIDDEN_AFTER})")
+"""'Too hard is forbidden' forbids what is too hard."""
 _NEVER_TOO = re.compile(
     r"\b(?:can|could) (?:not|never|hardly)((?: \w+){0,4}?) (?:too|over(?:ly)?)\b"
 )
@@ -90,7 +93,7 @@ _RATHER = re.compile(
     r"\b(?:rather|better|sooner|prefer\w*)\b(?: \w+)*? (?:too )?(\w+) than (?:too |be |being )?(?!usual|normal|before|last|that|this|it\b|standard|the\b|you)\w+"
 )
 _DENIED_AFTER = re.compile(
-    r"^[^,;]{0,40}?\b(?:(?:is|are) (?:not|no longer|wrong|out\b|useless|forbidden|unnecessary|overrated|the wrong|a mistake|for)|"
+    rf"^[^,;]{{0,40}}?\b(?:{FORBIDDEN_AFTER}|(?:is|are) (?:not|no longer|wrong|out\b|useless|forbidden|unnecessary|overrated|the wrong|a mistake|for)|"
     r"(?:is|are) (?:no (?:use|good|help)|not)|will not (?:do|cut|work|help|suffice|be)|does not (?:work|help|cut|do)|never (?:works|helps)|(?:is|are) never)"
 )
 _COMPLAINT = re.compile(
@@ -146,7 +149,7 @@ def _cues(sentence: str, asks: bool) -> Iterator[Cue]:
     sentence = _JUST_ENOUGH.sub(r"just enough\2", _MILDLY.sub(r"\1", sentence))
     sentence = _NEVER_TOO.sub(r"\1 ", sentence)
     sentence = _RATHER.sub(r" \1 ", sentence)
-    sentence = _TOO.sub(r"\1\2", sentence)
+    sentence = _TOO_FORBIDDEN.sub("", _TOO.sub(r"\1\2", sentence))
     for part in CLAUSE.split(sentence):
         for clause in _BREAK.split(part):
             for cue in _clause_cues(" ".join(clause.split())):

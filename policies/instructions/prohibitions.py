@@ -26,14 +26,15 @@ _OBJECT_WORD = re.compile(rf"(?:{words.any_of('fruit')}|gripper|fingers?|robot)"
 
 _INSTEAD = r"(?:instead of|rather than|except(?: for)?|save for|skip|omit|forgo|forego)"
 _LEAD = (
-    rf"(?:not|never|neither|without|avoid|no|{REFUSES}|{FORBIDDEN}|{_INSTEAD}|cease|resist|illegal|"
+    rf"(?:not|never|nobody|no one|neither|without|avoid|no|{REFUSES}|{FORBIDDEN}|{_INSTEAD}|cease|resist|illegal|wrong|"
+    r"against (?:the|my|our|all) (?:rules?|orders?|will|wish(?:es)?)|"
     r"keep(?: (?:yourself|the (?:gripper|robot|fingers)|your (?:fingers|gripper|hands?)))? from)"
 )
 _FILLER = (
-    r"(?:even|ever|again|you|your|think|about|of|try|to|dare|may|should|shall|must|can|will|are|allow|allowed|permit|permitted|authori[sz]ed|supposed|meant|"
+    r"(?:even|ever|again|is|you|your|think|about|of|try|to|dare|may|should|shall|must|can|will|are|allow|allowed|permit|permitted|authori[sz]ed|supposed|meant|"
     r"start|just|please|now|be|being|go|attempt|any|under|circumstances?|means|cases?|times?|way|events?|accounts?|conditions?|moment|point|price|permission|"
     r"want|like|me|it|yet|need|have|necessary|going|robots?|the|anyone|anybody|everyone|all|for|from|on|against|let|strictly|absolutely|"
-    r"(?:ok(?:ay)?|wise|safe|advisable|acceptable|right|a good idea)(?= (?:to|for)\b))"
+    r"(?:ok(?:ay)?|wise|safe|advisable|acceptable|right|a good idea|reason)(?= (?:to|for)\b))"
 )
 _VERB = (
     r"(?:pick(?:ing)?|grasp(?:ing)?|grip(?:ping)?|hold(?:ing)?|lift(?:ing)?|grab(?:bing)?|seiz(?:e|ing)|touch(?:ing)?|rais(?:e|ing)|clasp(?:ing)?|"
@@ -59,7 +60,7 @@ _PASSIVES = tuple(
         rf"(?P<lead>{_NEVER})(?: {_FILLER}){{0,7}} (?:be|being|get|getting|gets)",
         rf"(?P<lead>{_NEVER})(?: \w+){{0,2}}? {_WISH}(?: to (?:see|have|find))? {_OBJECT}(?: to be| to get| being| be| getting| get)?",
         rf"(?P<lead>prevent\w*|keep\w*|protect\w*|sav(?:e|ing)|stop|avoid\w*|without|instead of|rather than|{REFUSES}|{FORBIDDEN})(?: {_OBJECT}| its?)?(?: from| to)? (?:being|be)",
-        r"(?:is|are|was|were|gets?|stays?|remains?|been) (?P<lead>not|never)(?: to)?",
+        r"(?:is|are|was|were|gets?|stays?|remains?|be|been) (?P<lead>not|never|neither)(?: to)?",
         r"(?:must|may|should|shall|can|will|is to|best|better|rather) (?P<lead>not|never)(?: be)?",
     )
 )
@@ -68,8 +69,9 @@ _GERUND = (
     r"handling|carrying|taking|approaching|(?:(?:any|all|physical|every) )*(?:contact|touch)|(?:the|a|any|every|this) (?:grasp|grip|pick-?up))"
 )
 _FORBIDDEN_GERUND = re.compile(
-    rf"\b(?P<verb>{_GERUND})\b(?P<object>[^,;#]{{0,40}}?)[:,]? (?P<lead>{FORBIDDEN_AFTER})(?P<after>.*)"
+    rf"\b(?:\w+ )?(?P<verb>{_GERUND})\b(?P<object>[^,;#]{{0,40}}?)[:,]? (?P<lead>{FORBIDDEN_AFTER})(?P<after>.*)"
 )
+_COLON = re.compile(rf"\b({_GERUND})(?: it| the \w+)?: (?=(?:strictly |absolutely )?(?:{FORBIDDEN}|not\b|never\b|off\b))")
 _NOTHING = re.compile(
     rf"\b(?P<verb>{_VERB})(?: up| onto| on to| hold of)? (?P<lead>(?:absolutely )?nothing|none of (?:it|them|the \w+))\b"
     r"(?P<after>(?! (?:but|else|more|less|other|except|special|over|above|beyond|\w+er)\b).*)"
@@ -82,7 +84,7 @@ _OTHER_THING = re.compile(
     r" (?:the|that|this|those|any) (?!straw|berr|fruit|gripper|fingers?|one\b|object|thing)\w+\b"
 )
 _OTHER_SUBJECT = re.compile(
-    r"\b(?:the|its|that|this|these|those|any|all|both|your|my|other|neighbouring)(?: \w+)? (?P<noun>\w+)(?: (?:must|may|should|shall|can|could|will|would|is|are|ought|need|needs|has|have|also|which|that|to|do|does))*\s*$"
+    r"\b(?:the|its|that|this|these|those|any|all|both|your|my|other|neighbouring)(?: \w+)?? (?P<noun>\w+)(?: (?:must|may|should|shall|can|could|will|would|is|are|ought|need|needs|has|have|also|which|that|to|do|does))*\s*$"
 )
 _WAY = re.compile(
     r"\b(?:with(?! your| the gripper)|by(?! (?:you|any\w*|the (?:robot|gripper|arm|fingers?|hand)|a robot)\b)|like that|like this|table|mat|other|neighbou?r\w*|leaf|leaves|stem|anything else|against|back|up to|"
@@ -104,11 +106,16 @@ def prohibition(sentence: str, text: str) -> str:
         sentence: The sentence, its quantities replaced by ``MARK``.
         text: The whole text that it is of.
     """
-    for clause in CLAUSE.split(_ASIDE.sub(" ", sentence)):
+    for clause in CLAUSE.split(_with_plain_words(sentence)):
         for match, is_passive in _matches(clause or ""):
             if _forbids(match, text, is_passive=is_passive):
                 return match.group().strip()
     return ""
+
+
+def _with_plain_words(sentence: str) -> str:
+    """A sentence without what is said aside, 'gripping: forbidden' as 'gripping is forbidden'."""
+    return _COLON.sub(r"\1 is ", _ASIDE.sub("", sentence))
 
 
 def _matches(clause: str) -> Iterator[tuple[re.Match[str], bool]]:
@@ -133,7 +140,8 @@ def _forbids(match: re.Match[str], text: str, *, is_passive: bool) -> bool:
     is_first = len(_HOLD.findall(text)) - len(_HOLD.findall(core))
     elsewhere = is_first - len(_HOLD.findall("".join(_OTHERS_TURN.findall(after))))
     has_other = elsewhere > 0
-    if re.fullmatch(_INSTEAD, match["lead"]) or (is_passive and _PURPOSE.search(before)):
+    is_purpose = (is_passive or match["lead"].startswith("no")) and _PURPOSE.search(before)
+    if re.fullmatch(_INSTEAD, match["lead"]) or is_purpose:
         return not (has_other or MARK in text or has_manner(text))
     if _WAY.search(after):
         return False
@@ -148,6 +156,8 @@ def _forbids(match: re.Match[str], text: str, *, is_passive: bool) -> bool:
         return True
     if _OTHER_THING.match(after) or (is_passive and _is_of_other_thing(before)):
         return False  # 'don't take the lid, take the berry'
+    if verb.startswith("taken"):
+        return False  # 'hold it, do not let it be taken away'
     return not re.match(r"(?:squeez|press|pinch|clamp)", verb)  # 'pick it up without squeezing'
 
 

@@ -103,15 +103,17 @@ def _harms(text: str) -> str:
 def _destroys(text: str) -> str:
     for clause in _clauses(text):
         for pattern in _DESTROY_PHRASES:
-            if (match := pattern.search(clause)) and not is_denied(clause[: match.start()]):
+            if (match := pattern.search(clause)) and not is_denied(
+                clause[: match.start()], clause[match.end() :]
+            ):
                 return match.group().strip()
         for match in _DESTROY_VERB.finditer(clause):
-            before = clause[: match.start()]
+            before, behind = clause[: match.start()], clause[match.end() :]
             if re.match(
-                r" ?(?:\w+ )?(?:force|grip|pressure|squeeze|grasp)\b", clause[match.end() :]
+                r" ?(?:\w+ )?(?:force|grip|pressure|squeeze|grasp)\b", behind
             ):
                 continue  # 'cut the grip force by half'
-            if is_denied(before) or re.search(
+            if is_denied(before, behind) or re.search(
                 r"\b(?:better|rather|sooner|too|easy|easily|hard|how|any|than|the|a|no|of)\s*$",
                 before,
             ):
@@ -127,7 +129,7 @@ def _releases(text: str) -> str:
         for pattern in _RELEASE:
             for match in pattern.finditer(clause):
                 before, after = clause[: match.start()], clause[match.end() :]
-                if is_denied(before) or re.match(
+                if is_denied(before, after) or re.match(
                     r" (?:of )?(?:the|that|this|your|any|all)? ?(?:\w+ ){0,2}(?:idea|notion|act|thought|approach|macho|pressure|tension|force)\b",
                     after,
                 ):
