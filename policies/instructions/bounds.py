@@ -13,7 +13,9 @@ from policies.instructions.force_units import LOOSE, NUMBER, UNIT
 
 _ONE = rf"(?P<one>{NUMBER}(?:\s*-?\s*(?:{UNIT}|{LOOSE})\b)?(?: of (?:grip )?force\b)?)"
 _NOT = rf"(?:not|never|no longer|{NO_CASE})"
-_MODAL = r"(?:must|may|should|shall|can|could|will|would|ought(?: to)?|is|are|be|to|has|have|needs?)"
+_MODAL = (
+    r"(?:must|may|should|shall|can|could|will|would|ought(?: to)?|is|are|be|to|has|have|needs?)"
+)
 _EXCEEDED = r"(?:exceeded|surpassed|topped|overstepped|overshot|outdone|bettered|passed|crossed|reached|hit|attained|gone (?:over|above|beyond|past))"
 _UNDERCUT = r"(?:undercut|undershot|underrun|fallen below|gone (?:below|under))"
 _WHAT = r"(?: (?:mark|limit|line|threshold|level|force))?"

@@ -89,6 +89,10 @@ _JUST_ENOUGH = re.compile(
     r"\b(?!just)(\w{4,}?)(?:ly)? enough\b([^.;]*?),? (?:but |and |yet )?(?:no|not)(?: any| a bit)? (?:\1e?r|more)\b"
 )
 """'Tight enough that it stays, but not tighter' is just enough."""
+_TOO_FOR = re.compile(
+    r"(?<!grip)(?<!hold)(?<!force)(?<!squeeze)(?<!pressure)(?<!that)(?<!this)(?P<is> (?:is|are|looks|seems|feels|was|be) (?:\w+ )?|^|(?<=[,;:] ))too (?P<what>\w+) (?:for|to)\b(?P<rest>[^,;]*)"
+)
+"""'Too delicate to grip hard': it is delicate, and not to be gripped hard."""
 _RATHER = re.compile(
     r"\b(?:rather|better|sooner|prefer\w*)\b(?: \w+)*? (?:too )?(\w+) than (?:too |be |being )?(?!usual|normal|before|last|that|this|it\b|standard|the\b|you)\w+"
 )
@@ -149,6 +153,7 @@ def _cues(sentence: str, asks: bool) -> Iterator[Cue]:
     sentence = _JUST_ENOUGH.sub(r"just enough\2", _MILDLY.sub(r"\1", sentence))
     sentence = _NEVER_TOO.sub(r"\1 ", sentence)
     sentence = _RATHER.sub(r" \1 ", sentence)
+    sentence = _too_for(sentence)
     sentence = _TOO_FORBIDDEN.sub("", _TOO.sub(r"\1\2", sentence))
     for part in CLAUSE.split(sentence):
         for clause in _BREAK.split(part):
@@ -157,6 +162,14 @@ def _cues(sentence: str, asks: bool) -> Iterator[Cue]:
                     r"(?:and )?(?:why|must you|do you (?:have to|need to))\b", sentence
                 )
                 yield replace(cue, sign=-cue.sign, turned=True) if is_complaint else cue
+
+
+def _too_for(sentence: str) -> str:
+    match = _TOO_FOR.search(sentence)
+    if match is None or not has_manner(match["rest"]):
+        return sentence
+    rest = re.sub(r"\btoo ", "", match["rest"])
+    return f"{sentence[: match.start()]}{match['is']}{match['what']}, not{rest}{sentence[match.end() :]}"
 
 
 def _clause_cues(clause: str) -> Iterator[Cue]:

@@ -1,7 +1,7 @@
-"""Whether a text forbids to take hold of the object: 'never grip it', 'it must not be held',
-'gripping is forbidden', 'I do not want it touched', 'hold nothing'.
+"""Whether a text forbids to take hold of the object, in the active or the passive voice.
 
-Not here: other ways to ask for no grasp ('stop', 'hands off'), which are phrases in ``words.txt``.
+'Never grip it', 'it must not be held', 'gripping is forbidden', 'I do not want it touched' and
+'hold nothing' all do; 'it must not be held too hard' forbids a manner only. Not here: other ways to ask for no grasp ('stop', 'hands off'), which are phrases in ``words.txt``.
 """
 
 from __future__ import annotations
@@ -42,9 +42,7 @@ _VERB = (
     r"(?:start|begin|perform|execut|attempt|carry out|initiat|do|mak)(?:e|n?ing)? (?:the|a|any|this|that|your) (?:grasp|grip|grab|pick-?up|lift)\b|"
     r"approach(?:ing)?|mov(?:e|ing)(?=[.!,]*$| the (?:gripper|arm|fingers?|robot)| at all| (?:a|an) (?:inch|muscle|millimet\w+|finger)| anything| toward\w*| it\b))"
 )
-_ACTIVE = re.compile(
-    rf"\b(?P<lead>{_LEAD})(?: {_FILLER}){{0,7}} (?P<verb>{_VERB})\b(?P<after>.*)"
-)
+_ACTIVE = re.compile(rf"\b(?P<lead>{_LEAD})(?: {_FILLER}){{0,7}} (?P<verb>{_VERB})\b(?P<after>.*)")
 
 _HELD = (
     r"(?:pick(?:ed)?(?: up)?|grasped|gripped|held|lifted|grabbed|seized|touched|squeezed|pressed|clamped|pinched|clutched|handled|carried|"
@@ -71,7 +69,9 @@ _GERUND = (
 _FORBIDDEN_GERUND = re.compile(
     rf"\b(?:\w+ )?(?P<verb>{_GERUND})\b(?P<object>[^,;#]{{0,40}}?)[:,]? (?P<lead>{FORBIDDEN_AFTER})(?P<after>.*)"
 )
-_COLON = re.compile(rf"\b({_GERUND})(?: it| the \w+)?: (?=(?:strictly |absolutely )?(?:{FORBIDDEN}|not\b|never\b|off\b))")
+_COLON = re.compile(
+    rf"\b({_GERUND})(?: it| the \w+)?: (?=(?:strictly |absolutely )?(?:{FORBIDDEN}|not\b|never\b|off\b))"
+)
 _NOTHING = re.compile(
     rf"\b(?P<verb>{_VERB})(?: up| onto| on to| hold of)? (?P<lead>(?:absolutely )?nothing|none of (?:it|them|the \w+))\b"
     r"(?P<after>(?! (?:but|else|more|less|other|except|special|over|above|beyond|\w+er)\b).*)"
@@ -134,7 +134,11 @@ def _forbids(match: re.Match[str], text: str, *, is_passive: bool) -> bool:
     said = match.group()
     if is_denied(before) or re.search(r"\b(?:i|we) (?:can|could|will|may)\s*$", before):
         return False  # 'I can't hold it myself'
-    if has_manner(said) or MARK in after or re.search(r"\b(?:(?:so|too|that|as) (?:often|long)|much)\b", after):
+    if (
+        has_manner(said)
+        or MARK in after
+        or re.search(r"\b(?:(?:so|too|that|as) (?:often|long)|much)\b", after)
+    ):
         return False
     core = said.removesuffix(after)
     is_first = len(_HOLD.findall(text)) - len(_HOLD.findall(core))

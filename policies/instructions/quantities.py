@@ -465,7 +465,11 @@ def _relation(left: str, right: str) -> tuple[Kind, int, int]:
     if exact := _EXACT_AFTER.match(right):
         return "value", len(left), exact.end()
     if match := _STOPS_SHORT.search(left):
-        return ("least" if _NOT_STOPPING.search(left[: match.start()]) else "most"), match.start(), 0
+        return (
+            ("least" if _NOT_STOPPING.search(left[: match.start()]) else "most"),
+            match.start(),
+            0,
+        )
     for pattern, plainly, denied, harm in (
         (_ABOVE, "least", "most", _TOO_MUCH),
         (_BELOW, "most", "least", _TOO_LITTLE),

@@ -109,9 +109,7 @@ def _destroys(text: str) -> str:
                 return match.group().strip()
         for match in _DESTROY_VERB.finditer(clause):
             before, behind = clause[: match.start()], clause[match.end() :]
-            if re.match(
-                r" ?(?:\w+ )?(?:force|grip|pressure|squeeze|grasp)\b", behind
-            ):
+            if re.match(r" ?(?:\w+ )?(?:force|grip|pressure|squeeze|grasp)\b", behind):
                 continue  # 'cut the grip force by half'
             if is_denied(before, behind) or re.search(
                 r"\b(?:better|rather|sooner|too|easy|easily|hard|how|any|than|the|a|no|of)\s*$",

@@ -42,6 +42,7 @@ CLAUSE = re.compile(
 def plain(text: str) -> str:
     """Lower case, straight quotes, contractions written out, single spaces."""
     text = re.sub("(\\d*) ?([½¼¾⅓⅔⅛])", _mixed, text)
+    text = re.sub("(?<=[\\w)])([⁰¹²³⁴⁵⁶⁷⁸⁹])", r"^\1", text)  # '0.5²' is no 0.52
     text = unicodedata.normalize("NFKC", text).lower()
     text = text.replace("()", "").replace("’", "'").replace("`", "'").replace("−", "-")
     for pattern, replacement in _CONTRACTIONS:

@@ -1,4 +1,4 @@
-"""Prohibitions in every voice are refused as not touching; ones of a manner, a way or a time are not."""
+"""Prohibitions in every voice are refused as not touching; those of a manner or a way are not."""
 
 import pytest
 
