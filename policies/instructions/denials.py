@@ -18,9 +18,9 @@ _NOT = re.compile(
 )
 _IS = r"(?:is|are|was|were|be|being|stays?|remains?|(?:has|have) been|seems?|counts as)"
 _FORBIDDEN_STATE = (
-    r"(?:forbidden|prohibited|banned|disallowed|outlawed|vetoed|taboo|verboten|illegal|impermissible|inadmissible|unacceptable|unwanted|undesired|unwelcome|"
+    r"(?:forbidden|prohibited|banned|disallowed|outlawed|vetoed|taboo|verboten|illegal|impermissible|inadmissible|unacceptable|unwanted|undesired|undesirable|inadvisable|wrong|unwelcome|"
     r"(?:no longer |never )?(?:out of the question|off[ -]limits|ruled out)|an? no[ -]?(?:no|go)|(?:a bad|no) (?:idea|option)|a mistake|against (?:the|my|our) (?:rules|orders|will)|"
-    r"(?:not|never|no longer) (?:to be (?:done|tried|attempted)|allowed|permitted|acceptable|admissible|authori[sz]ed|tolerated|wanted|desired|welcome|ok(?:ay)?|all ?right|an? (?:good idea|option)|what i want))"
+    r"(?:not|never|no longer) (?:to be (?:done|tried|attempted)|allowed|permitted|acceptable|admissible|authori[sz]ed|tolerated|wanted|desired|desirable|advisable|wise|needed|necessary|required|called for|welcome|ok(?:ay)?|all ?right|an? (?:good idea|option)|what i want))"
 )
 _AVOIDED = r"(?:(?:must|should|shall|may|can|will|is|has|needs?|ought)(?: to)? (?:(?:be avoided|be refrained from|be omitted|be skipped)|(?:not|never) (?:happen|occur|take place|be (?:done|tried|attempted|allowed|permitted|started|performed|tolerated))))"
 FORBIDDEN_AFTER = rf"(?:(?:{_IS} (?:\w+ly |still |now |therefore |also |hereby )*)?{_FORBIDDEN_STATE}(?! (?:to|from)\b)|{_AVOIDED})\b"

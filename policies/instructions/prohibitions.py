@@ -21,25 +21,28 @@ _ASIDE = re.compile(
 )
 """Said between a denial and its verb, often between commas."""
 
+_ANY_MORE = re.compile(r"\b(gripped|grasped|held|touched|picked(?: up)?|lifted) any ?more\b")
+
 _HOLD = re.compile(rf"\b{words.any_of('hold')}\b")
 _OBJECT_WORD = re.compile(rf"(?:{words.any_of('fruit')}|gripper|fingers?|robot)")
 
 _INSTEAD = r"(?:instead of|rather than|except(?: for)?|save for|skip|omit|forgo|forego)"
 _LEAD = (
-    rf"(?:not|never|nobody|no one|neither|without|avoid|no|{REFUSES}|{FORBIDDEN}|{_INSTEAD}|cease|resist|illegal|wrong|"
+    rf"(?:not|never|nobody|no one|neither|without|avoid|no|{REFUSES}|{FORBIDDEN}|{_INSTEAD}|cease|resist|illegal|wrong|undesirable|leave off|give up|(?:hold|shrink|shy|keep|stay)(?: back| away) from|"
     r"against (?:the|my|our|all) (?:rules?|orders?|will|wish(?:es)?)|"
     r"keep(?: (?:yourself|the (?:gripper|robot|fingers)|your (?:fingers|gripper|hands?)))? from)"
 )
 _FILLER = (
-    r"(?:even|ever|again|is|you|your|think|about|of|try|to|dare|may|should|shall|must|can|will|are|allow|allowed|permit|permitted|authori[sz]ed|supposed|meant|"
+    r"(?:even|ever|again|is|there|here|grippers?|a single|a(?= (?:finger|hand)\b)|single|fingers?|hands?|part|you|your|think|about|of|try|to|dare|may|should|shall|must|can|will|are|allow|allowed|permit|permitted|authori[sz]ed|supposed|meant|"
     r"start|just|please|now|be|being|go|attempt|any|under|circumstances?|means|cases?|times?|way|events?|accounts?|conditions?|moment|point|price|permission|"
     r"want|like|me|it|yet|need|have|necessary|going|robots?|the|anyone|anybody|everyone|all|for|from|on|against|let|strictly|absolutely|"
-    r"(?:ok(?:ay)?|wise|safe|advisable|acceptable|right|a good idea|reason)(?= (?:to|for)\b))"
+    r"(?:ok(?:ay)?|wise|safe|desirable|desired|wanted|required|advised|advisable|acceptable|right|a good idea|reason)(?= (?:to|for)\b))"
 )
 _VERB = (
     r"(?:pick(?:ing)?|grasp(?:ing)?|grip(?:ping)?|hold(?:ing)?|lift(?:ing)?|grab(?:bing)?|seiz(?:e|ing)|touch(?:ing)?|rais(?:e|ing)|clasp(?:ing)?|"
     r"squeez(?:e|ing)|press(?:ing)?|clamp(?:ing)?|pinch(?:ing)?|clos(?:e|ing)|clutch(?:ing)?|handl(?:e|ing)|carry(?:ing)?|tak(?:e|ing)(?= (?:it|the|this|that)\b)|"
     r"(?:start|begin|perform|execut|attempt|carry out|initiat|do|mak)(?:e|n?ing)? (?:the|a|any|this|that|your) (?:grasp|grip|grab|pick-?up|lift)\b|"
+    r"(?:get(?:ting)?|tak(?:e|ing)|lay(?:ing)?) hold\b|(?:lay|put|plac|set)(?:e|t?ing)? (?:an? |your |any |the )?(?:fingers?|hands?|gripper|claws?|jaws?) (?:on|onto|to|around|near)\b|"
     r"approach(?:ing)?|mov(?:e|ing)(?=[.!,]*$| the (?:gripper|arm|fingers?|robot)| at all| (?:a|an) (?:inch|muscle|millimet\w+|finger)| anything| toward\w*| it\b))"
 )
 _ACTIVE = re.compile(rf"\b(?P<lead>{_LEAD})(?: {_FILLER}){{0,7}} (?P<verb>{_VERB})\b(?P<after>.*)")
@@ -48,7 +51,7 @@ _HELD = (
     r"(?:pick(?:ed)?(?: up)?|grasped|gripped|held|lifted|grabbed|seized|touched|squeezed|pressed|clamped|pinched|clutched|handled|carried|"
     r"taken(?: hold of)?|approached|moved|closed|raised|clasped|plucked|harvested|fetched|contacted|engaged)"
 )
-_NEVER = rf"(?:not|never|no longer|nobody|no one|neither|{NO_CASE})"
+_NEVER = rf"(?:not|never|nothing|none(?: of (?:it|them|the \w+))?|no longer|nobody|no one|neither|{NO_CASE})"
 _OBJECT = r"(?:it|this|that|them|these|those|(?:the|my|our|this|that|any|an?) (?:\w+ )?\w+)"
 _WISH = r"(?:want|wants|wish|wishes|like|need|have|see|let|allow|permit|accept|tolerate|stand)"
 _HOW = r"(?: (?!to )\w+ly| ever| yet| again)?"
@@ -58,10 +61,14 @@ _PASSIVES = tuple(
         rf"(?P<lead>{_NEVER})(?: {_FILLER}){{0,7}} (?:be|being|get|getting|gets)",
         rf"(?P<lead>{_NEVER})(?: \w+){{0,2}}? {_WISH}(?: to (?:see|have|find))? {_OBJECT}(?: to be| to get| being| be| getting| get)?",
         rf"(?P<lead>prevent\w*|keep\w*|protect\w*|sav(?:e|ing)|stop|avoid\w*|without|instead of|rather than|{REFUSES}|{FORBIDDEN})(?: {_OBJECT}| its?)?(?: from| to)? (?:being|be)",
-        r"(?:is|are|was|were|gets?|stays?|remains?|be|been) (?P<lead>not|never|neither)(?: to)?",
+        r"(?:be|been) (?P<lead>not|never|neither)(?: to)?",
         r"(?:must|may|should|shall|can|will|is to|best|better|rather) (?P<lead>not|never)(?: be)?",
     )
 )
+_STATE = re.compile(
+    rf"(?:\b(?:is|are|was|were|gets?|stays?|remains?) |^ ?)(?P<lead>not|never|neither)(?: to)?{_HOW} (?P<verb>{_HELD})\b(?P<after>.*)"
+)
+"""'It is not gripped', 'only to be looked at, not gripped': a wish where nothing else is asked for."""
 _GERUND = (
     r"(?:picking|grasping|gripping|holding|lifting|grabbing|seizing|touching|raising|clasping|squeezing|pressing|clamping|pinching|closing|clutching|"
     r"handling|carrying|taking|approaching|(?:(?:any|all|physical|every) )*(?:contact|touch)|(?:the|a|any|every|this) (?:grasp|grip|pick-?up))"
@@ -87,7 +94,7 @@ _OTHER_SUBJECT = re.compile(
     r"\b(?:the|its|that|this|these|those|any|all|both|your|my|other|neighbouring)(?: \w+)?? (?P<noun>\w+)(?: (?:must|may|should|shall|can|could|will|would|is|are|ought|need|needs|has|have|also|which|that|to|do|does))*\s*$"
 )
 _WAY = re.compile(
-    r"\b(?:with(?! your| the gripper)|by(?! (?:you|any\w*|the (?:robot|gripper|arm|fingers?|hand)|a robot)\b)|like that|like this|table|mat|other|neighbou?r\w*|leaf|leaves|stem|anything else|against|back|up to|"
+    r"\b(?:with(?! your| the gripper| any)|by(?! (?:you|any\w*|the (?:robot|gripper|arm|fingers?|hand)|a robot)\b)|like that|like this|table|mat|other|neighbou?r\w*|leaf|leaves|stem|anything else|against|back|up to|"
     r"otherwise|differently|any other way|without|except|alone|unattended|upside|sideways|again and again)\b"
 )
 """Says in what way, or what else, so that only that is forbidden."""
@@ -95,6 +102,13 @@ _TIME = re.compile(r"\b(?:until|till|unless|before)\b")
 _OTHERS_TURN = re.compile(
     r"\b(?:until|till|unless|before|when|once)(?: (?:i|he|she|they|we|my|our|someone|somebody|told|asked|instructed|further|the (?:operator|boss|supervisor))\b.*)"
 )
+_COORDINATED = re.compile(rf"\b(?:or|nor)(?: to)?(?: be)? (?:{_VERB}|{_HELD})\b")
+_NO_ANSWER = re.compile(
+    r"\?\s*(?:no|never|nope|nah)\b(?:,? (?:thanks|thank you|please|sir|way|never|no))*[.! ]*$"
+)
+"""'Hold it? No.'"""
+_IDIOM = re.compile(r"\b(?:take (?:care|note)|keep in mind|get me right)\b")
+"""No holding, in spite of its verb."""
 _PURPOSE = re.compile(r"\b(?:so|such|lest|where|because|or|else|if|to)\b")
 _ABOUT_IT = re.compile(r"\b(?:it|berry|fruit|one|this|that|strawberry)\b")
 
@@ -106,6 +120,8 @@ def prohibition(sentence: str, text: str) -> str:
         sentence: The sentence, its quantities replaced by ``MARK``.
         text: The whole text that it is of.
     """
+    if (answer := _NO_ANSWER.search(text)) and not has_manner(text):
+        return answer.group(0).strip("? .!")
     for clause in CLAUSE.split(_with_plain_words(sentence)):
         for match, is_passive in _matches(clause or ""):
             if _forbids(match, text, is_passive=is_passive):
@@ -113,9 +129,17 @@ def prohibition(sentence: str, text: str) -> str:
     return ""
 
 
+def _is_asked_elsewhere(after: str, core: str, text: str) -> bool:
+    """Whether a text has a verb of holding beside the forbidden ones."""
+    forbidden = (
+        f"{core} {' '.join(_COORDINATED.findall(after))} {''.join(_OTHERS_TURN.findall(after))}"
+    )
+    return len(_HOLD.findall(_IDIOM.sub("", text))) > len(_HOLD.findall(forbidden))
+
+
 def _with_plain_words(sentence: str) -> str:
     """A sentence without what is said aside, 'gripping: forbidden' as 'gripping is forbidden'."""
-    return _COLON.sub(r"\1 is ", _ASIDE.sub("", sentence))
+    return _ANY_MORE.sub(r"\1", _COLON.sub(r"\1 is ", _ASIDE.sub("", sentence)))
 
 
 def _matches(clause: str) -> Iterator[tuple[re.Match[str], bool]]:
@@ -123,7 +147,7 @@ def _matches(clause: str) -> Iterator[tuple[re.Match[str], bool]]:
     for pattern in (_ACTIVE, _FORBIDDEN_GERUND, _NOTHING, _OLD_FASHIONED):
         if match := pattern.search(clause):
             yield match, False
-    for pattern in _PASSIVES:
+    for pattern in (*_PASSIVES, _STATE):
         if match := pattern.search(clause):
             yield match, True
 
@@ -137,13 +161,16 @@ def _forbids(match: re.Match[str], text: str, *, is_passive: bool) -> bool:
     if (
         has_manner(said)
         or MARK in after
-        or re.search(r"\b(?:(?:so|too|that|as) (?:often|long)|much)\b", after)
+        or re.search(
+            r"\b(?:(?:so|too|that|as) (?:often|long|far)|much|(?:more|further|longer|deeper) than)\b",
+            after,
+        )
     ):
         return False
     core = said.removesuffix(after)
-    is_first = len(_HOLD.findall(text)) - len(_HOLD.findall(core))
-    elsewhere = is_first - len(_HOLD.findall("".join(_OTHERS_TURN.findall(after))))
-    has_other = elsewhere > 0
+    has_other = _is_asked_elsewhere(after, core, text)
+    if match.re is _STATE:
+        return not (has_other or MARK in text)
     is_purpose = (is_passive or match["lead"].startswith("no")) and _PURPOSE.search(before)
     if re.fullmatch(_INSTEAD, match["lead"]) or is_purpose:
         return not (has_other or MARK in text or has_manner(text))

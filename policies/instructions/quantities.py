@@ -290,7 +290,10 @@ def read_quantities(text: str) -> Quantities:
     area = _AREA.search(text)
     delta_n, text = _delta(text)
     forces, denied, text = _forces(text)
+    before_factor = text
     factor, factor_words, text = _factor(text)
+    if factor is not None and not forces:
+        denied = denied or _denied_factor(before_factor, factor, factor_words)
     is_alone = factor is None and area is None
     percentage = _PERCENT_OF_NOTHING.search(text) if is_alone else None
     place = _PLACE.search(text)
@@ -511,6 +514,8 @@ def _relation(left: str, right: str) -> tuple[Kind, int, int]:
     return "value", len(left), 0
 
 
+_THAN = re.compile(r"\b(?:more|harder|firmer|tighter|higher|over|above|exceed\w*)(?: than)?\s*$")
+"""Before a factor that bounds: 'no more than twice the usual force'."""
 _USUAL = r"(?:the |your |its |that |what (?:you|is) |our |as )"
 _HOW = r"(?:hard|firm(?:ly)?|tight(?:ly)?|strong(?:ly)?|much|gentl[ey]|soft(?:ly)?|light(?:ly)?|forceful(?:ly)?)"
 _UP = r"(?:more|harder|firmer|tighter|stronger|higher|above|extra|over|up|heavier)"
@@ -553,6 +558,14 @@ def _factor(text: str) -> tuple[float | None, str, str]:
                 factor = 1 / factor  # 'twice as gently'
             return factor, match[0], text[: match.start()] + f" {MARK} " + text[match.end() :]
     return None, "", text
+
+
+def _denied_factor(text: str, factor: float, words: str) -> str:
+    """The words of a factor above 1 that is not to be used ('never twice as hard'); '' for none."""
+    before = re.split(r"[.;:,]\s|\b(?:but|and)\b", text[: text.find(words)])[-1]
+    before = re.sub(r"\b(?:not|never) (?:hesitate|forget|fail|be afraid)\b", "", before)
+    is_denied = len(_NOT.findall(before)) % 2 == 1 and not _THAN.search(before)
+    return words.strip() if factor > 1 and is_denied else ""
 
 
 def _percent(match: re.Match[str]) -> float:

@@ -85,6 +85,11 @@ def test_a_denial_counts_for_both_ends_of_a_range(text):
     assert sorted(forces(text)) == [("least", 0.5), ("most", 1.0)]
 
 
+def test_a_scale_that_is_said_once_counts_for_both_ends():
+    found = sorted(forces("between two and three hundred millinewtons"))
+    assert found == [("least", pytest.approx(0.2)), ("most", pytest.approx(0.3))]
+
+
 @pytest.mark.parametrize(
     "text",
     [
@@ -125,7 +130,7 @@ def test_a_range_that_is_only_denied_is_refused(text):
         "1 N is needed",
         "1 N is not too much",
         "1 N was right last time",
-        "use 1 N, the berry bruises",
+        "use 1 N, the berry is soft",
         "squeeze to 1 N then lift",
         "press harder, then 1 N",
     ],

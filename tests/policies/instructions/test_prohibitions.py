@@ -19,6 +19,9 @@ PASSIVE = (
     "I do not want the berry held.",
     "We don't want the egg to be picked up.",
     "The gripper must not be closed.",
+    "Nothing may be gripped.",
+    "It may only be looked at, not gripped.",
+    "It must not be held any more.",
 )
 OF_A_NOUN = (
     "Gripping is forbidden.",
@@ -46,6 +49,10 @@ ACTIVE = (
     "Hold nothing.",
     "Touch none of them.",
     "Do not grip it until I say so.",
+    "No finger may touch it.",
+    "Don't take hold of the berry.",
+    "It is undesirable to hold it.",
+    "Hold it? No.",
     "Hold it? Please don't.",
 )
 
@@ -77,6 +84,8 @@ def test_a_prohibition_in_any_voice_is_refused_as_not_touching(text):
         "Instead of gripping it hard, hold it gently.",
         "Do not close before you touch it, then hold it with 1 N.",
         "Never refuse to grip it.",
+        "Pick the strawberry which is not yet picked.",
+        "Not just touched, it must be held.",
         "There is no reason not to grip it.",
         "By no means drop it.",
     ],

@@ -230,6 +230,20 @@ def test_a_factor_on_the_usual_force_is_read_as_one(text, factor):
 
 
 @pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("It must not be gripped twice as hard.", "twice as hard"),
+        ("Never hold it 30 % harder than usual.", "30 % harder"),
+        ("Do not hesitate to grip it twice as hard.", ""),
+        ("Never let it slip and grip it twice as hard.", ""),
+        ("Do not drop it, grip it twice as hard.", ""),
+    ],
+)
+def test_a_factor_that_is_only_denied_is_reported(text, words):
+    assert read_request(text).numbers.denied == words
+
+
+@pytest.mark.parametrize(
     ("text", "factor"),
     [
         ("Two times harder.", 2.0),
