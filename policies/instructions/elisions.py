@@ -60,6 +60,9 @@ _HALVES = (
     re.compile(rf"(?<!in )(?:\ban? |\b1 )?\bhalf(?= ?(?:-|–|to|and|or|up to) {_ONE})"),
     re.compile(rf"(?<=(?:than|nder|over|elow|bove|most|east) )(?:an? )?half{_AFTER}"),
 )
+_HELD_AT = (
+    r"\b(?:hold|grip|squeeze|press|grasp|clamp|pinch)(?: it| this| that| the \w+)? (?:at|to) "
+)
 _QUANTITY = re.compile(
     rf"{NUMBER}\s*-?\s*(?:(?P<force>(?:{UNIT})\b)|mm\b|cm\b|millimet\w+|[µμu]m\b|micro\w+|%|percent\b|per cent\b)"
 )
@@ -68,6 +71,7 @@ _BARES = (
     re.compile(rf"\bbetween (?P<a>{NUMBER})(?: and |{_LINK})(?P<b>{_BARE}){_AFTER}"),
     re.compile(rf"(?:{_BEFORE}|\bfrom |^)(?P<a>{NUMBER}){_LINK}(?P<b>{_BARE}){_AFTER}"),
     re.compile(rf"{_BEFORE}(?P<a>{NUMBER}){_AFTER}"),
+    re.compile(rf"{_HELD_AT}(?P<a>{NUMBER}){_AFTER}"),
     re.compile(
         rf"(?P<a>{NUMBER})(?= (?:at (?:the )?(?:very )?(?:most|least)|max(?:imum)?|min(?:imum)?|or (?:less|more)|(?:is |would be )?(?:too|not enough)|(?:will|would) (?:bruis|crush|hurt|damag|squash|slip|break)\w*)\b)"
     ),
@@ -85,7 +89,7 @@ _ONE_ALONE = re.compile(
 )
 """'Between half a newton and one'."""
 _ON_A_SCALE = re.compile(
-    rf"(?:{_BEFORE}|\b(?:hold|grip|squeeze|press|grasp)(?: it)?(?: at| to)? )(?P<a>{NUMBER})\s*(?:/|out of|of|on a scale of)\s*(?:\d+ to )?{_BARE}(?=\s*(?:$|[.,;:!?)]))"
+    rf"(?:{_BEFORE}|{_HELD_AT}|\b(?:hold|grip|squeeze)(?: it)? )(?P<a>{NUMBER})\s*(?:/|out of|of|on a scale of)\s*(?:\d+ to )?{_BARE}(?=\s*(?:$|[.,;:!?)]))"
 )
 """'At 7 out of 10'."""
 

@@ -15,12 +15,6 @@ from policies.instructions.manner import has_manner
 from policies.instructions.quantities import MARK
 from policies.instructions.text import CLAUSE
 
-_ASIDE = re.compile(
-    r",? (?:under any circumstances?|in any (?:case|event|way|circumstances?)|at any (?:time|cost|price|point)|on any account|"
-    r"by any means|for any reason|whatsoever|whatever happens|i repeat|i insist|ever again),?(?= )"
-)
-"""Said between a denial and its verb, often between commas."""
-
 _ANY_MORE = re.compile(r"\b(gripped|grasped|held|touched|picked(?: up)?|lifted) any ?more\b")
 
 _HOLD = re.compile(rf"\b{words.any_of('hold')}\b")
@@ -138,8 +132,8 @@ def _is_asked_elsewhere(after: str, core: str, text: str) -> bool:
 
 
 def _with_plain_words(sentence: str) -> str:
-    """A sentence without what is said aside, 'gripping: forbidden' as 'gripping is forbidden'."""
-    return _ANY_MORE.sub(r"\1", _COLON.sub(r"\1 is ", _ASIDE.sub("", sentence)))
+    """'Gripping: forbidden' as 'gripping is forbidden', 'held any more' as 'held'."""
+    return _ANY_MORE.sub(r"\1", _COLON.sub(r"\1 is ", sentence))
 
 
 def _matches(clause: str) -> Iterator[tuple[re.Match[str], bool]]:

@@ -143,7 +143,7 @@ _MOST = re.compile(
     r"\blimit(?:s|ed|ing)?(?: \w+){0,3}?(?: to| of| at| is|:| =|=)?|"
     r"\bcap(?:ped|ping)?(?: \w+){0,3}?(?: at| to| of| is|:| =|=)?|\bceiling(?: of| is| at|:| =|=)?|"
     r"\bupper (?:\w+ )?(?:limit|bound|end)(?: \w+){0,2}?(?: of| is| at|:| =|=)?|\bpeak(?: \w+){0,2}?(?: of| is| at|:| =|=)?|"
-    r"<=|≤|=<|\bnot to exceed|\bwithin|\bbounded (?:above )?(?:by|at)|\b(?:not|never)(?: let it)? (?:go|push|squeeze|press)(?: \w{1,4})?|\b(?:top|max|peak|level)(?:p?ing|s|p?ed)?(?: \w+)?(?: out)? at|\b(?:restrict|confin|constrain|throttl)\w*(?: \w+){0,3}? (?:to|at|by)|\b(?:may|can|could|might)(?: only| just| at most)? (?:be (?:raised|increased)|rise|go|climb|increase|grow|build|reach|extend)(?: up)?(?: to)?|\b(?:not|never|without|avoid\w*)(?: (?:ever|let|the|force|it|grip|even|quite|to|be|going|you|allow\w*|pressure|have|want|go|come|rise)){0,5} (?:reach(?:es|ing)?|hit(?:s|ting)?|get(?:s|ting)? (?:up )?to|attain\w*|ris(?:e|es|ing) to|climb\w* to)|\bno more than|\bnowhere near|\b(?:allowed|permitted)(?: (?:up )?to(?: use)?)?|"
+    r"<=|≤|=<|\bnot to exceed|\bwithin|\bbounded (?:above )?(?:by|at)|\b(?:not|never)(?: let it)? (?:go|push|squeeze|press)(?: \w{1,4})?|\b(?:top|max|peak|level)(?:p?ing|s|p?ed)?(?: \w+)?(?: out)? at|\b(?:restrict|confin|constrain|throttl)\w*(?: \w+){0,3}? (?:to|at|by)|\b(?:may|can|could|might)(?: only| just| at most)? (?:be (?:raised|increased)|rise|go|climb|increase|grow|build|reach|extend)(?: up)?(?: to)?|\b(?:not|never|without|avoid\w*)(?: (?:ever|let|the|force|it|grip|even|quite|to|be|going|you|allow\w*|pressure|have|want|go|come|rise)){0,5} (?:reach(?:es|ing)?|hit(?:s|ting)?|get(?:s|ting)? (?:up )?to|attain\w*|ris(?:e|es|ing) to|climb\w* to)|\bno more than|\bnowhere near|\b(?:allowed|permitted)(?: (?:up )?to(?: (?:use|reach|rise to|climb to|go(?: up)? to))?)?|"
     r"\b(?:ease|eases|back|let)(?: \w+){0,2} (?:once|when|as soon as|at)(?: (?:you|it|we))?(?: (?:feel|reach|hit|see|measure|get to|read)\w*)?|\bfar (?:away )?from|\b(?:not|never)(?: (?:even|anywhere|get|go|come|be))* (?:close|near)(?: to)?|\bf[_ ]?max\s*[:=]?)"
     r"(?: (?:about|around|roughly))?\s*$"
 )
@@ -227,7 +227,7 @@ _NOT_WITH = re.compile(
 """Before a force: it is not to be used."""
 
 _OUTSIDE = re.compile(
-    r"\b(?:outside|out of|beyond|apart from|other than|except)(?: of)?(?: the)?(?: (?:force )?(?:range|window|band|interval))?(?: of| from| between)?\s*$"
+    r"\b(?:outside|out of|beyond|apart from|other than|except(?: for)?|exclud(?:e|es|ing))(?: of)?(?: the)?(?: (?:force )?(?:range|window|band|interval))?(?: of| from| between)?\s*$"
 )
 """Before a range: it is not to be used."""
 

@@ -37,6 +37,7 @@ _DERIVED = re.compile(
 
 _FORMULA = re.compile(
     rf"(?:\b[a-z]+\(\s*{NUMBER}\s*\)|\b{NUMBER}\)?\s*(?:\^|\*\*|/)\s*\(?{NUMBER}\)?)\s*(?:{UNIT})\b|"
+    rf"(?:\(\s*{NUMBER}\s*[+*/]\s*{NUMBER}\s*\)|(?:√\s*\(?|{NUMBER}\s*[*×x])(?=\d){NUMBER}\)?)\s*(?:{UNIT})\b|"
     rf"{NUMBER}\s*(?:{UNIT})\b\s*(?:\^|\*\*|\*|/|×|·|x(?= ?\d)|times\b|divided by\b)\s*\d[\d.,]*"
 )
 """Powers, roots and quotients are not worked out."""

@@ -27,6 +27,7 @@ MOSTS = (
     "close to 1 N but not over",
     "1 N without going over",
     "1 N but softer",
+    "do not, under any circumstances, exceed 1 N",
     "without reaching 1 N",
     "don't get to 1 N",
     "do not let it reach 1 N",
@@ -113,6 +114,7 @@ def test_the_same_force_as_most_and_least_is_about_that_force_and_no_more(text):
         "outside of 0.5 to 1 N",
         "never 0.5 to 1 N",
         "not in the range 1 to 2 N",
+        "exclude 0.5 to 1 N",
         "by no means use 1 N",
     ],
 )

@@ -34,6 +34,7 @@ def middle_n(text: str) -> float:
         "It is very fragile, so pick it with great care.",
         "It is too soft for a firm grip.",
         "Too delicate to grip hard.",
+        "Do not, I say, do not hold it firmly.",
     ],
 )
 def test_gentle_words_lower_the_middle_of_the_band(text):
