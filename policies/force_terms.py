@@ -95,7 +95,8 @@ def named_terms(forces: Sequence[Force], manner: Manner, task: ForceTerms) -> Fo
         band = _around(forces, least)
     elif least > 0 and most < math.inf:
         top_n = BELOW_MOST * most
-        band = Band(low=least, high=top_n if top_n > 1.1 * least else most)
+        low_n = least if least < ROUNDING * most else (1 - AROUND) * most  # 'no less and no more'
+        band = Band(low=low_n, high=top_n if top_n > 1.1 * low_n else most)
     elif most < math.inf and most > most_by_words_n(task):
         return task  # it asks for nothing beyond the task's own
     elif most < math.inf:

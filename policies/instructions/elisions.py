@@ -46,7 +46,9 @@ _BOUND = (
     r"(?:max(?:imum|imally)?|min(?:imum|imally)?|limit|ceiling|cap|floor)\b\.?(?: of| is| at| to)?|"
     r"(?:bruis|crush|slip|slid|break|burst|squash)\w* (?:at|from))"
 )
-_VALUE = r"(?:with|use|using|apply|but|make it|aim(?:ing)? (?:for|at)|(?:target|goal|force)(?: of| to| is)?|grip (?:of|at)|at a force of)"
+_SCALE = r"(?:(?:grip(?:ping)? |force |holding |squeez(?:e|ing) |clamping )?(?:strength|power|level|intensity|setting|stage|grade|gear|notch|firmness|hardness|tightness|pressure|effort|grip force))"
+"""What a number without a unit may stand on, as on a dial: it says no force."""
+_VALUE = rf"(?:with|use|using|apply|but|make it|aim(?:ing)? (?:for|at)|(?:target|goal|force|(?:the |a )?{_SCALE})(?: (?:level|setting|value))?(?: of| to| is| at)?|grip (?:of|at)|at a force of)"
 _ROUGHLY = r"(?: a force of| about| around| roughly)?"
 BEFORE_BOUND = rf"(?:\b{_BOUND}{_ROUGHLY}|[<>≤≥])\s*[:=]?\s*"
 """What stands before a number that bounds a force."""
@@ -58,6 +60,9 @@ _HALVES = (
     re.compile(rf"(?<!in )(?:\ban? |\b1 )?\bhalf(?= ?(?:-|–|to|and|or|up to) {_ONE})"),
     re.compile(rf"(?<=(?:than|nder|over|elow|bove|most|east) )(?:an? )?half{_AFTER}"),
 )
+_HELD_AT = (
+    r"\b(?:hold|grip|squeeze|press|grasp|clamp|pinch)(?: it| this| that| the \w+)? (?:at|to) "
+)
 _QUANTITY = re.compile(
     rf"{NUMBER}\s*-?\s*(?:(?P<force>(?:{UNIT})\b)|mm\b|cm\b|millimet\w+|[µμu]m\b|micro\w+|%|percent\b|per cent\b)"
 )
@@ -66,6 +71,7 @@ _BARES = (
     re.compile(rf"\bbetween (?P<a>{NUMBER})(?: and |{_LINK})(?P<b>{_BARE}){_AFTER}"),
     re.compile(rf"(?:{_BEFORE}|\bfrom |^)(?P<a>{NUMBER}){_LINK}(?P<b>{_BARE}){_AFTER}"),
     re.compile(rf"{_BEFORE}(?P<a>{NUMBER}){_AFTER}"),
+    re.compile(rf"{_HELD_AT}(?P<a>{NUMBER}){_AFTER}"),
     re.compile(
         rf"(?P<a>{NUMBER})(?= (?:at (?:the )?(?:very )?(?:most|least)|max(?:imum)?|min(?:imum)?|or (?:less|more)|(?:is |would be )?(?:too|not enough)|(?:will|would) (?:bruis|crush|hurt|damag|squash|slip|break)\w*)\b)"
     ),
@@ -77,6 +83,15 @@ _HALF_RANGES = (
     re.compile(rf"\bbetween {NUMBER}\s*(?P<u>(?:{UNIT})\b) and (?P<b>{NUMBER}){_AFTER}"),
     re.compile(rf"{NUMBER}\s*(?P<u>(?:{UNIT})\b){_LINK}(?P<b>{_BARE}){_AFTER}"),
 )
+
+_ONE_ALONE = re.compile(
+    rf"(?P<before>{NUMBER}\s*(?P<u>(?:{UNIT})\b)(?:{_LINK}|,? (?:and|but) |, )(?:{_BOUND} )?)one(?=\s*(?:$|[.,;:!?)]))"
+)
+"""'Between half a newton and one'."""
+_ON_A_SCALE = re.compile(
+    rf"(?:{_BEFORE}|{_HELD_AT}|\b(?:hold|grip|squeeze)(?: it)? )(?P<a>{NUMBER})\s*(?:/|out of|of|on a scale of)\s*(?:\d+ to )?{_BARE}(?=\s*(?:$|[.,;:!?)]))"
+)
+"""'At 7 out of 10'."""
 
 
 def written_out(text: str) -> tuple[str, str]:
@@ -104,7 +119,9 @@ def written_out(text: str) -> tuple[str, str]:
     for pattern in _HALF_RANGES:
         while match := pattern.search(text):
             text = f"{text[: match.end('b')]} {match['u']}{text[match.end('b') :]}"
-    unitless = ""
+    text = _ONE_ALONE.sub(r"\g<before>1 \g<u>", text)
+    on_a_scale = _ON_A_SCALE.search(text)
+    unitless = on_a_scale["a"] if on_a_scale else ""
     for pattern in _BARES:
         at = 0
         while match := pattern.search(text, at):

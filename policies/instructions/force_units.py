@@ -37,10 +37,10 @@ _MASSES = ((_KILO, 1000 * GRAM_N), (_GRAM, GRAM_N), (_POUND, POUND_N), (_OUNCE, 
 """Masses stand for a force only after a word such as 'with' or 'at most'."""
 UNIT = "|".join(unit for unit, _ in UNITS)
 LOOSE = "|".join(unit for unit, _ in _MASSES)
-ALONE = r"(?<![\d.,])"
+ALONE = r"(?<![\d.,])(?<!\de)(?<!\de[+-])"
 NUMBER = (
     ALONE
-    + r"(?:\d{1,3}(?:,\d{3})+(?:\.\d+)?|\d{1,12}(?:[.,]\d{1,12})?|\.\d{1,12})(?:e[+-]?\d{1,2})?(?![.,]?\d)"
+    + r"(?:\d{1,3}(?:,\d{3})+(?:\.\d+)?|\d{1,12}(?:[.,]\d{1,12})?|\.\d{1,12})(?:e[+-]?\d{1,4})?(?![.,]?\d)"
 )
 
 

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from policies.instructions import words
+from policies.instructions.denials import FORBIDDEN_AFTER
 from policies.instructions.text import CLAUSE, sentences
 
 
@@ -73,8 +74,10 @@ _NEUTRAL = words.groups("neutral")
 _DENIAL = re.compile(rf"\b{words.any_of('denial')}\b")
 _VERY = re.compile(rf"\b{words.any_of('very')}\b")
 _TOO = re.compile(
-    r"\b(not|never|nothing|none|without|avoid\w*|nor|stop|no)\b((?: \w+){0,4}?) (?:too|over|overly|excessive(?:ly)?|unnecessarily)\b"
+    r"\b(not|never|nothing|none|without|avoid\w*|nor|stop|no|forbidden|forbid|prohibited|refuse|refrain from|keep from)\b((?: \w+){0,4}?) (?:too|over|overly|excessive(?:ly)?|unnecessarily)\b"
 )
+_TOO_FORBIDDEN = re.compile(rf"\b(?:too|overly) (?=\w+[^,;.]{{0,30}} {FORBIDDEN_AFTER})")
+"""'Too hard is forbidden' forbids what is too hard."""
 _NEVER_TOO = re.compile(
     r"\b(?:can|could) (?:not|never|hardly)((?: \w+){0,4}?) (?:too|over(?:ly)?)\b"
 )
@@ -86,11 +89,15 @@ _JUST_ENOUGH = re.compile(
     r"\b(?!just)(\w{4,}?)(?:ly)? enough\b([^.;]*?),? (?:but |and |yet )?(?:no|not)(?: any| a bit)? (?:\1e?r|more)\b"
 )
 """'Tight enough that it stays, but not tighter' is just enough."""
+_TOO_FOR = re.compile(
+    r"(?<!grip)(?<!hold)(?<!force)(?<!squeeze)(?<!pressure)(?<!that)(?<!this)(?P<is> (?:is|are|looks|seems|feels|was|be) (?:\w+ )?|^|(?<=[,;:] ))too (?P<what>\w+) (?:for|to)\b(?P<rest>[^,;]*)"
+)
+"""'Too delicate to grip hard': it is delicate, and not to be gripped hard."""
 _RATHER = re.compile(
     r"\b(?:rather|better|sooner|prefer\w*)\b(?: \w+)*? (?:too )?(\w+) than (?:too |be |being )?(?!usual|normal|before|last|that|this|it\b|standard|the\b|you)\w+"
 )
 _DENIED_AFTER = re.compile(
-    r"^[^,;]{0,40}?\b(?:(?:is|are) (?:not|no longer|wrong|out\b|useless|forbidden|unnecessary|overrated|the wrong|a mistake|for)|"
+    rf"^[^,;]{{0,40}}?\b(?:{FORBIDDEN_AFTER}|(?:is|are) (?:not|no longer|wrong|out\b|useless|forbidden|unnecessary|overrated|the wrong|a mistake|for)|"
     r"(?:is|are) (?:no (?:use|good|help)|not)|will not (?:do|cut|work|help|suffice|be)|does not (?:work|help|cut|do)|never (?:works|helps)|(?:is|are) never)"
 )
 _COMPLAINT = re.compile(
@@ -146,7 +153,8 @@ def _cues(sentence: str, asks: bool) -> Iterator[Cue]:
     sentence = _JUST_ENOUGH.sub(r"just enough\2", _MILDLY.sub(r"\1", sentence))
     sentence = _NEVER_TOO.sub(r"\1 ", sentence)
     sentence = _RATHER.sub(r" \1 ", sentence)
-    sentence = _TOO.sub(r"\1\2", sentence)
+    sentence = _too_for(sentence)
+    sentence = _TOO_FORBIDDEN.sub("", _TOO.sub(r"\1\2", sentence))
     for part in CLAUSE.split(sentence):
         for clause in _BREAK.split(part):
             for cue in _clause_cues(" ".join(clause.split())):
@@ -154,6 +162,14 @@ def _cues(sentence: str, asks: bool) -> Iterator[Cue]:
                     r"(?:and )?(?:why|must you|do you (?:have to|need to))\b", sentence
                 )
                 yield replace(cue, sign=-cue.sign, turned=True) if is_complaint else cue
+
+
+def _too_for(sentence: str) -> str:
+    match = _TOO_FOR.search(sentence)
+    if match is None or not has_manner(match["rest"]):
+        return sentence
+    rest = re.sub(r"\btoo ", "", match["rest"])
+    return f"{sentence[: match.start()]}{match['is']}{match['what']}, not{rest}{sentence[match.end() :]}"
 
 
 def _clause_cues(clause: str) -> Iterator[Cue]:

@@ -66,9 +66,18 @@ _UNIT = r"(?=[ -]*(?:of )?(?:an? |1 )?(?:single |full |whole )?(?:milli|kilo|new
 _OF_A = r"(?:[ -]+(?:of )?(?:an?|1)(?= ))?"
 
 
+_UNDER_TEN = "|".join(word for word, value in _SMALL.items() if 0 < value < 10)
+_SHARED_SCALE = re.compile(
+    rf"(?P<before>\bbetween )?(?<![.,\d])(?<!ty[ -])(?<!hundred )(?<!thousand )(?<!point )(?<!and )\b(?P<a>{_UNDER_TEN}|[1-9])"
+    rf"(?P<link> to | or | up to | through | ?[-–] ?|(?(before) and | to ))(?P<b>{_UNDER_TEN}|[1-9])[ -](?P<scale>{'|'.join(_SCALES)})\b"
+)
+"""'Two to three hundred': the scale counts for both."""
+
+
 def in_digits(text: str) -> str:
     """Write the numbers of a plain text in digits; ordinals stay as they are."""
     text = re.sub(r"(\d)⁄(\d)", r"\1/\2", text)
+    text = _SHARED_SCALE.sub(_scale_of_both, text)
     text = re.sub(r"\b(\d+) (hundred|thousand|million)\b", _scaled, text)
     text = re.sub(r"\bhundred and (?=(?:\w+[ -])?\w+ hundred\b)", "hundred  and  ", text)
     text = _CHAIN.sub(lambda match: _cardinals(match[0]), _PRONOUN.sub("1ne", text))
@@ -108,6 +117,15 @@ def in_digits(text: str) -> str:
         "1 ",
         text,
     )
+
+
+def _scale_of_both(match: re.Match[str]) -> str:
+    first, second = (_SMALL.get(match[name]) or int(match[name]) for name in "ab")
+    if first >= second:
+        return match[0]
+    before = match["before"] or ""
+    link = match["link"] if match["link"].strip().isalpha() else " to "
+    return f"{before}{match['a']} {match['scale']}{link}{match['b']} {match['scale']}"
 
 
 def _scaled(match: re.Match[str]) -> str:

@@ -11,6 +11,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Literal
 
+from policies.instructions.bounds import with_plain_bounds
+from policies.instructions.denials import NO_CASE
 from policies.instructions.elisions import written_out
 from policies.instructions.force_units import ALONE, LOOSE, NUMBER, UNIT, in_newtons, number
 from policies.instructions.numerals import in_digits
@@ -127,7 +129,7 @@ _FIRMER = r"(?:harder|firmer|tighter|stronger|heavier|larger|bigger|greater|high
 _SOFTER = r"(?:softer|gentler|lighter|weaker|looser|lower|smaller|fewer)"
 _ABOVE = re.compile(
     rf"\b(?:over|above|beyond|past|exceed(?:s|ed|ing)?|surpass\w*|in excess of|north of|upwards? of|"
-    rf"pass(?:es|ing)?|topp?(?:ing)?|(?:any |a \w+ |\w+ )?more(?: \w+)? than|{_FIRMER}(?: \w+)? than(?: you would)?(?: with| at)?)"
+    rf"pass(?:es|ing)?|top(?:s|ping)?|cross(?:es|ing)?|overshoot\w*|overstep\w*|(?:any |a \w+ |\w+ )?more(?: \w+)? than|{_FIRMER}(?: \w+)? than(?: you would)?(?: with| at)?)"
     r"(?: the| a| of)?\s*$|>\s*$"
 )
 _BELOW = re.compile(
@@ -135,37 +137,46 @@ _BELOW = re.compile(
     r"shy of|sub)(?: the| a)?\s*-?$|<\s*$"
 )
 _MOST = re.compile(
-    r"(?:\b(?:less|lower|smaller) than or equal to|\b(?:at|under|below) or (?:under|below|at)|\b(?:ends|tops out|finish\w*|finishes)(?: \w+){0,3} (?:at|before)|\bstop\w*(?: \w+){0,3} (?:before|short of)|\bstop (?:squeez|press)ing at|"
+    r"(?:\b(?:less|lower|smaller) than or equal to|\b(?:at|under|below) or (?:under|below|at)|\b(?:ends|tops out|finish\w*|finishes)(?: \w+){0,3} (?:at|before)|\bstop\w*(?: \w+){0,3} before|\bstop (?:squeez|press)ing at|"
     r"\bat (?:the )?(?:very |absolute )?most|\batmost|\bhard stop(?: at| of| is)?|\bup to|\b(?:as (?:hard|much|high|firm|far) as|no further than)|"
     r"\bmax(?:imum|imal(?:ly)?|ed)?\.?(?: \w+){0,3}?(?: of| is| at| to|:| =|=)?|"
     r"\blimit(?:s|ed|ing)?(?: \w+){0,3}?(?: to| of| at| is|:| =|=)?|"
     r"\bcap(?:ped|ping)?(?: \w+){0,3}?(?: at| to| of| is|:| =|=)?|\bceiling(?: of| is| at|:| =|=)?|"
     r"\bupper (?:\w+ )?(?:limit|bound|end)(?: \w+){0,2}?(?: of| is| at|:| =|=)?|\bpeak(?: \w+){0,2}?(?: of| is| at|:| =|=)?|"
-    r"<=|≤|=<|\bnot to exceed|\bwithin|\bbounded (?:above )?(?:by|at)|\b(?:not|never)(?: let it)? (?:go|push|squeeze|press)(?: \w{1,4})?|\btop out at|\bno more than|\bnowhere near|\b(?:allowed|permitted)(?: (?:up )?to(?: use)?)?|"
-    r"\b(?:ease|eases|back|let)(?: \w+){0,2} (?:once|when|as soon as|at)(?: (?:you|it|we))?(?: (?:feel|reach|hit|see|measure|get to|read)\w*)?|\bfar (?:away )?from|\b(?:not|never)(?: (?:even|anywhere|get|go|come|be))* (?:close|near)(?: to)?|\bf_?max\s*=)"
+    r"<=|≤|=<|\bnot to exceed|\bwithin|\bbounded (?:above )?(?:by|at)|\b(?:not|never)(?: let it)? (?:go|push|squeeze|press)(?: \w{1,4})?|\b(?:top|max|peak|level)(?:p?ing|s|p?ed)?(?: \w+)?(?: out)? at|\b(?:restrict|confin|constrain|throttl)\w*(?: \w+){0,3}? (?:to|at|by)|\b(?:may|can|could|might)(?: only| just| at most)? (?:be (?:raised|increased)|rise|go|climb|increase|grow|build|reach|extend)(?: up)?(?: to)?|\b(?:not|never|without|avoid\w*)(?: (?:ever|let|the|force|it|grip|even|quite|to|be|going|you|allow\w*|pressure|have|want|go|come|rise)){0,5} (?:reach(?:es|ing)?|hit(?:s|ting)?|get(?:s|ting)? (?:up )?to|attain\w*|ris(?:e|es|ing) to|climb\w* to)|\bno more than|\bnowhere near|\b(?:allowed|permitted)(?: (?:up )?to(?: (?:use|reach|rise to|climb to|go(?: up)? to))?)?|"
+    r"\b(?:ease|eases|back|let)(?: \w+){0,2} (?:once|when|as soon as|at)(?: (?:you|it|we))?(?: (?:feel|reach|hit|see|measure|get to|read)\w*)?|\bfar (?:away )?from|\b(?:not|never)(?: (?:even|anywhere|get|go|come|be))* (?:close|near)(?: to)?|\bf[_ ]?max\s*[:=]?)"
     r"(?: (?:about|around|roughly))?\s*$"
 )
 _LEAST = re.compile(
     r"(?:\b(?:more|greater|higher|larger) than or equal to|\b(?:at|over|above) or (?:over|above|at)|"
     r"\bat (?:the )?(?:very |absolute )?least|\batleast|\bmin(?:imum|imal(?:ly)?)?\.?(?: \w+){0,3}?(?: of| is| at|:| =|=)?|"
     r"\blower (?:\w+ )?(?:limit|bound|end)(?: \w+){0,2}?(?: of| is| at|:| =|=)?|\bfloor(?: \w+){0,3}?(?: of| is| at|:| =|=)?|"
-    r">=|≥|=>|\bno less than|\b(?:it|berry|fruit|this|that|one|strawberry|thing) (?:really |always )?(?:needs|requires|takes)|\bf_?min\s*=|\bstarting (?:at|from)|\bbottom out at)"
+    r">=|≥|=>|\bno less than|\b(?:it|berry|fruit|this|that|one|strawberry|thing) (?:really |always )?(?:needs|requires|takes)|\bf[_ ]?min\s*[:=]?|\bstarting (?:at|from)|\bbottom out at)"
     r"(?: (?:about|around|roughly))?\s*$"
 )
 _OTHERS = r"(?!(?: than| of| is| to|:| =)?(?: (?:about|around|roughly))?(?: an?)? ?(?:\d|\.\d))"
 """Ends a bound after a number: '2 N, at most 2.2 N' bounds the second number, not the first."""
 
-_HARMS = r"(?:gives? (?:way|in)|fail|yield|suffer|complain|leak|collapse|spoil|bruis|crush|squash|burst|break|split|crack|damag|mark|dent|pop|hurt|mush|ruin|spoil|tear|pulp)\w*"
+_HARMS = r"(?:g[ia]ves? (?:way|in)|broke|tore|left (?:a |its )?(?:mark|dent|bruise)|fail|yield|suffer|complain|leak|collapse|spoil|bruis|crush|squash|burst|break|split|crack|damag|mark|dent|pop|hurt|mush|ruin|spoil|tear|pulp)\w*"
 _SLIPS = r"(?:slips?|falls?|drops?|slides?|turns?|gets? away|wobbles?)"
+_BEEN = r"(?:is|was|are|were|would be|will be|would have been|has been|had been|seems?|seemed|felt|proved|turned out)(?: to be)?"
+_UNWANTED = (
+    r"(?:forbidden|prohibited|banned|disallowed|unacceptable|excessive|overkill|unnecessary|needless|dangerous|harmful|risky|taboo|ruled out|out of (?:the question|bounds)|"
+    r"off[ -]limits|an? no[ -]?(?:no|go)|not (?:allowed|permitted|acceptable|tolerated|tolerable|necessary|needed|required|wanted|safe|ok(?:ay)?|an option|advisable|recommended))"
+)
+"""What is said of a force that is too large."""
 _MOST_AFTER = re.compile(
     r"\s*(?:-|–|,|:)?\s*(?:(?:at |as )?(?:a |the )?max(?:imum|imal)?\b(?!\.?(?: of| is|:| =)? ?\d)|tops\b|at (?:the )?(?:very |absolute )?most\b|"
     r"(?:or|and) (?:a (?:little|bit|touch) |slightly |even )?(?:less|below|under|lower|lighter|softer|gentler|smaller)\b|(?: [a-z]+){1,3} at (?:the )?(?:very |absolute )?most\b|"
     r"[;,.]? ?(?:and )?(?:do not|never|not|but not) (?:\w+ ){0,2}(?:past|over|above|beyond|exceed|higher than) (?:it|that|this)\b|"
-    r"(?:,? ?and )?(?:absolutely )?(?:no|not|never)(?! need)(?: \w+){0,2} (?:more|higher|harder|above|over|further|beyond)\b"
+    r"(?:,? ?(?:and|but|yet|though) )?(?:absolutely )?(?:no|not|never|without)(?! need)(?: \w+){0,2} (?:more|higher|harder|above|over|further|beyond|past)\b"
     r"(?!,? (?:and |or )?(?:no|not|nor|never)(?: \w+)? less)(?! (?:no|not) less)|"
-    r"(?:is|as|being)(?: \w+){0,3} (?:limit|max(?:imum)?|ceiling|cap|most|end of the line|last word)\b|(?:limit|ceiling|cap)\b(?!(?: of| is|:| =)? ?\d)|"
-    r"(?:(?:is|would be|are|will be) )?(?:already |way |far |just )?too (?:much|hard|firm|high|strong)|and under\b|"
-    rf"(?:will|would|is where \w+|is when \w+) (?:already |surely )?{_HARMS}|(?:it|they|the \w+) (?:already |surely )?{_HARMS})"
+    r"(?:is|as|being)(?: (?!lower)\w+){0,3} (?:limit|max(?:imum)?|ceiling|cap|most|end of the line|last word)\b|(?:limit|ceiling|cap)\b(?!(?: of| is|:| =)? ?\d)|"
+    r"(?:(?:an?|the|my|your|as|is|as an?|as the) )*upper (?:\w+ )?(?:bound|limit|end)\b|"
+    rf"(?:,? ?(?:and|but) (?:it|that|this) )?(?:{_BEEN} )?(?:already |way |far |just |clearly |evidently )*too (?:much|hard|firm|high|strong|tight|rough|heavy|great)|and under\b|"
+    rf"{_BEEN} (?:already |strictly |absolutely |still |simply )*{_UNWANTED}|"
+    rf"(?<!, )(?:already |surely |will |would |can |could |may |might |has |had |have )*{_HARMS}(?= (?:it|the|this|that|my|our|one|some|berr\w+|strawberr\w+|fruits?|a|easily|already|them)\b|\s*(?:$|[.;!,]))|"
+    rf"(?:will|would|is where \w+|is when \w+) (?:already |surely )?{_HARMS}|(?:it|they|the (?:(?:last|previous|first|other) )?\w+) (?:already |surely )?{_HARMS})"
     + _OTHERS
 )
 _LEAST_AFTER = re.compile(
@@ -173,12 +184,13 @@ _LEAST_AFTER = re.compile(
     r"at (?:the )?(?:very |absolute )?least\b|plus\b|"
     r"(?:,? ?and )?(?:absolutely )?(?:no|not|never)(?: \w+){0,2} (?:less|lower|softer|under|below)\b|"
     r"(?:is|as|being)(?: \w+){0,3} (?:minimum|min|floor|least)\b|(?:floor)\b|"
-    r"(?:(?:is|would be|are|will be|will) )?(?:not (?:do|enough)|(?:just |way |far )?too (?:little|light|soft|low|weak))|"
+    r"(?:(?:an?|the|my|your|as|is|as an?|as the) )*lower (?:\w+ )?(?:bound|limit|end)\b|"
+    r"(?:(?:is|was|were|would be|are|will be|will|proved|turned out) )?(?:(?:to be )?not (?:do|enough)|(?:just |way |far )?too (?:little|light|soft|low|weak))|"
     rf"(?:it|they|the \w+) (?:still |just |already )?{_SLIPS}\b)" + _OTHERS
 )
 _MOST_SOMEWHERE = re.compile(
     r"\b(?:cut ?-?offs?|saturate at|clip(?:ped)? at|(?:not|never)(?: \w+){0,4} reach(?:es)?|before it reaches|back off at|the most (?:i|you|we|it|that)|upper (?:\w+ )?(?:bound|limit|end)|ceiling|red line|draw the line|top of (?:what|the|its)|bounded above|"
-    r"maximum|(?:not|without|never|avoid) exceed\w*|(?:not|never|nor)\b.{0,30}\b(?:pass|past|exceed|over|above|beyond|surpass|cross) (?:it|that|this)\b|"
+    r"maximum|(?:not|without|never|avoid)(?: to)?(?: be(?:ing)?)? (?:exceed|surpass)\w*|(?:not|never|nor)\b.{0,30}\b(?:pass|past|exceed|over|above|beyond|surpass|cross) (?:it|that|this)\b|"
     r"(?:remain|stay|keep|stop|be)\w* (?:it )?(?:just |well |safely )?(?:below|under|short of|beneath) (?:it|that|this)\b|as (?:a|the|an) (?:ceiling|cap|maximum|upper))"
 )
 _LEAST_SOMEWHERE = re.compile(
@@ -208,11 +220,16 @@ _DROPPED = re.compile(
     r"\b(?:not|never|instead of|rather than|forget(?: about)?|isn't|skip|no longer|nor)(?: (?:at|the|with|use|using|to|about|exactly))*\s*$"
 )
 _NOT_WITH = re.compile(
-    r"\b(?<!why )(?<!why do )(?:not(?! you (?:just |please )?(?:use|hold|keep|grip|grasp|take|try|go|apply)\b)|never|no|avoid\w*|refrain from)"
+    rf"\b(?<!why )(?<!why do )(?:{NO_CASE}|not(?! you (?:just |please )?(?:use|hold|keep|grip|grasp|take|try|go|apply)\b)|never|no|avoid\w*|refrain from)"
     r"(?: (?:ever|want|like|dare|you|to|hold|keep|grip|grasp|pinch|pick|take|lift|set|go|apply|use|using|it|this|that|the|"
-    r"(?:straw ?)?berry|fruit|one|at|with|a|force|of|for|exactly|about|around))*\s*$"
+    r"(?:straw ?)?berry|fruit|one|at|with|a|force|of|for|exactly|about|around|in|within|between|from))*\s*$"
 )
 """Before a force: it is not to be used."""
+
+_OUTSIDE = re.compile(
+    r"\b(?:outside|out of|beyond|apart from|other than|except(?: for)?|exclud(?:e|es|ing))(?: of)?(?: the)?(?: (?:force )?(?:range|window|band|interval))?(?: of| from| between)?\s*$"
+)
+"""Before a range: it is not to be used."""
 
 _RISE = re.compile(
     r"\b(?:bring|take|raise|get|ramp|crank|turn|increase|dial|build|work|go)(?: (?:it|this|that|the \w+))?\s*$"
@@ -227,6 +244,10 @@ _PAST = re.compile(
     r"\b(?:last (?:time|one|run|trial|try|berry)|yesterday|previous(?:ly)?|before|earlier|used to|was|were|had|"
     r"slipped|slid|crushed|squashed|bruised|dropped|tried|went|did)\b"
 )
+_STOPS_SHORT = re.compile(
+    r"\bstop(?:s|ping)?(?: (?!squeez|press|grip|hold)\w+){0,2}? (?:short of|shy of|before|below|under|beneath)(?: (?:about|around|roughly|the|a))?\s*$"
+)
+_NOT_STOPPING = re.compile(r"\b(?:not|never|without|no)(?: \w+){0,2} $")
 _HARMED = re.compile(
     rf"\b{_HARMS}(?: \w+){{0,3}} (?:above|over|beyond|past|at|from|with more than|after)\s*$"
 )
@@ -234,10 +255,10 @@ _SLIPPING = re.compile(
     rf"(?:^|[,;:]|\b(?:it|berry|fruit|one|this|thing|they|and|or|but|these|berries)) ?{_SLIPS}(?: \w+){{0,3}} (?:under|below|at|with|with less than)\s*$"
 )
 _TOO_MUCH = re.compile(
-    rf"[^.;#]{{0,20}}\b(?:too much|forbidden|not allowed|prohibited|out of|off limits|unacceptable|no go|a no-no|not ok\w*|{_HARMS})"
+    rf"[^.;#]{{0,20}}\b(?:too much|out of|no go|not ok\w*|pointless|useless|no (?:use|sense|point|need|good)|wast\w+|{_UNWANTED}|(?:not|never) (?:be )?(?:needed|necessary|required|called for|wise|good|wanted|used)|{_HARMS})"
 )
 _TOO_LITTLE = re.compile(
-    rf"[^.;#]{{0,20}}\b(?:will not do|not (?:allowed|acceptable|permitted|ok\w*|on)|forbidden|banned|not enough|too little|insufficient|useless|will not hold|no good|not acceptable|{_SLIPS}|let it)"
+    rf"[^.;#]{{0,20}}\b(?:will not do|not (?:allowed|acceptable|permitted|ok\w*|on)|forbidden|banned|not (?:enough|sufficient)|too little|insufficient|useless|will not hold|no good|not acceptable|{_SLIPS}|let it)"
 )
 _FORCE_WORD = re.compile(
     r"(?:\b(?:with|apply|applying|use|using|at|to|about|around|roughly|exactly|than|most|least|under|over|above|"
@@ -259,6 +280,7 @@ def read_quantities(text: str) -> Quantities:
     text = re.sub(rf"({NUMBER}) ?\(((?:{UNIT}))\)", r"\1 \2", text)
     text = re.sub(rf"(\d)\.\s*(?=(?:{UNIT})\b)", r"\1 ", text)  # '5. N'
     text, lone = without_lone(with_plain_tolerances(text))
+    text = with_plain_bounds(text)
     text = _CHAIN.sub(r"between \1 and \2 \3", text)
     text = _PAIR.sub(r"between \1 and \2 \3", text)
     unread = unknown_force(text)
@@ -268,7 +290,10 @@ def read_quantities(text: str) -> Quantities:
     area = _AREA.search(text)
     delta_n, text = _delta(text)
     forces, denied, text = _forces(text)
+    before_factor = text
     factor, factor_words, text = _factor(text)
+    if factor is not None and not forces:
+        denied = denied or _denied_factor(before_factor, factor, factor_words)
     is_alone = factor is None and area is None
     percentage = _PERCENT_OF_NOTHING.search(text) if is_alone else None
     place = _PLACE.search(text)
@@ -335,7 +360,10 @@ def _forces(text: str) -> tuple[list[Force], str, str]:
             ]
         elif len(ends) == 2:
             low, high = sorted(ends)
-            kept = not _DROPPED.search(left)
+            is_outside = bool(_OUTSIDE.search(left)) and not _NOT.search(left)
+            kept = not (_DROPPED.search(left) or is_outside)
+            if not kept or _NOT_WITH.search(left):
+                kept, denied = False, words
             found += [
                 (Force(kind="least", value_n=low, words=words), kept),
                 (Force(kind="most", value_n=high, words=words), kept),
@@ -439,6 +467,12 @@ def _relation(left: str, right: str) -> tuple[Kind, int, int]:
         return "value", len(left), 0
     if exact := _EXACT_AFTER.match(right):
         return "value", len(left), exact.end()
+    if match := _STOPS_SHORT.search(left):
+        return (
+            ("least" if _NOT_STOPPING.search(left[: match.start()]) else "most"),
+            match.start(),
+            0,
+        )
     for pattern, plainly, denied, harm in (
         (_ABOVE, "least", "most", _TOO_MUCH),
         (_BELOW, "most", "least", _TOO_LITTLE),
@@ -480,6 +514,8 @@ def _relation(left: str, right: str) -> tuple[Kind, int, int]:
     return "value", len(left), 0
 
 
+_THAN = re.compile(r"\b(?:more|harder|firmer|tighter|higher|over|above|exceed\w*)(?: than)?\s*$")
+"""Before a factor that bounds: 'no more than twice the usual force'."""
 _USUAL = r"(?:the |your |its |that |what (?:you|is) |our |as )"
 _HOW = r"(?:hard|firm(?:ly)?|tight(?:ly)?|strong(?:ly)?|much|gentl[ey]|soft(?:ly)?|light(?:ly)?|forceful(?:ly)?)"
 _UP = r"(?:more|harder|firmer|tighter|stronger|higher|above|extra|over|up|heavier)"
@@ -522,6 +558,14 @@ def _factor(text: str) -> tuple[float | None, str, str]:
                 factor = 1 / factor  # 'twice as gently'
             return factor, match[0], text[: match.start()] + f" {MARK} " + text[match.end() :]
     return None, "", text
+
+
+def _denied_factor(text: str, factor: float, words: str) -> str:
+    """The words of a factor above 1 that is not to be used ('never twice as hard'); '' for none."""
+    before = re.split(r"[.;:,]\s|\b(?:but|and)\b", text[: text.find(words)])[-1]
+    before = re.sub(r"\b(?:not|never) (?:hesitate|forget|fail|be afraid)\b", "", before)
+    is_denied = len(_NOT.findall(before)) % 2 == 1 and not _THAN.search(before)
+    return words.strip() if factor > 1 and is_denied else ""
 
 
 def _percent(match: re.Match[str]) -> float:

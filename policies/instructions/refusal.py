@@ -5,14 +5,12 @@ from __future__ import annotations
 import re
 
 from policies.instructions import words
+from policies.instructions.denials import is_denied
 from policies.instructions.manner import has_manner, without_neutral
+from policies.instructions.prohibitions import prohibition
 from policies.instructions.quantities import MARK
 from policies.instructions.text import CLAUSE, sentences
 
-_NOT = re.compile(
-    r"\b(?:not|never|without|avoid\w*|nor|neither|no need to|prevent\w*|instead of|rather than|refrain\w* from|stop|forbid\w*|"
-    r"keep(?:s|ing)? (?:it |me |you )?from|until|till|before|unless|when i|once i|if i|after i|than|risk of|afraid of|fear of|danger of|do not want|careful not|mind|watch(?: out for)?|careful (?:of|with|about)|beware of|clear of|away from|quit|free of)\b"
-)
 _MODAL = re.compile(
     r"\b(?:it|this|that|berry|fruit|skin|they|one|strawberry|force|pressure|grip|or|else|i|we|fingers|newtons|#|otherwise|which|these|those|berries|fruits|easily|to easily|"
     r"if you|or you|else you|when you|lest you|you always|you keep|you just|you often|you nearly|you almost|you are|you were|almost|nearly|not to|so as not to|"
@@ -31,23 +29,10 @@ _RELEASE = words.groups("release")
 _HANDOVER, _PUT_DOWN = words.any_of("handover"), words.any_of("put_down")
 _STOP = words.groups("stop")
 _FORCE_NOUN = re.compile(r"\b(?:force|grip|pressure|squeeze|squeezing|tension)\b")
-_OTHER_THING = re.compile(
-    r" (?:the|that|this|those|any) (?!straw|berr|fruit|gripper|fingers?|one\b|object|thing)\w+\b"
-)
 _WEAK_STOP = re.compile(
     r"\b(?:wait|stay|leave it there|remain|pause|stand by|hold (?:it )?there)\b|^not move"
 )
 _HOLD = re.compile(rf"\b{words.any_of('hold')}\b")
-_NEGATIVE_HOLD = re.compile(
-    r"\b(?:not|never|neither|without|avoid|refrain from|no)(?: (?:even|ever|you|think|about|of|try|to|dare|may|should|shall|must|can|will|are|to|allowed|start|just|please|now|be|being|go|"
-    r"attempt|any|under|circumstances|want|like|me|it|yet|need|necessary|going|robot)){0,4} "
-    r"(?P<verb>pick(?:ing)?|grasp(?:ing)?|grip(?:ping)?|hold(?:ing)?|lift(?:ing)?|grab(?:bing)?|seiz(?:e|ing)|touch(?:ing)?|"
-    r"squeez(?:e|ing)|press(?:ing)?|clamp(?:ing)?|pinch(?:ing)?|clos(?:e|ing)|clutch(?:ing)?|handl(?:e|ing)|carry(?:ing)?|tak(?:e|ing)(?= (?:it|the|this|that)\b)|"
-    r"approach(?:ing)?|mov(?:e|ing)(?=[.!,]*$| the (?:gripper|arm|fingers?|robot)| at all| (?:a|an) (?:inch|muscle|millimet\w+|finger)| anything| toward\w*| it\b))\b(?P<after>.*)"
-)
-_UNLESS = re.compile(
-    r"\b(?:until|till|unless|before|with(?! your| the gripper)|by the|like that|like this|table|mat|other|neighbou?r\w*|leaf|leaves|stem|anything else|against|back|up to)\b"
-)
 
 
 def refusal_of(text: str, whole: str = "") -> str:
@@ -93,18 +78,11 @@ def _clauses(text: str) -> list[str]:
     ]
 
 
-def _denied(before: str) -> bool:
-    """Whether the words before a match in its clause deny it."""
-    before = before[-70:]
-    part = before.rpartition(" and ")[2]
-    return len(_NOT.findall(part if _NOT.search(part) else before)) % 2 == 1
-
-
 def _sets_limits_aside(text: str) -> str:
     for pattern in _OVERRIDE:
         for match in pattern.finditer(text):
             before = re.split(r"[.,;!?]", text[: match.start()])[-1]
-            if not _denied(before):
+            if not is_denied(before):
                 return match.group().strip()
     return ""
 
@@ -115,7 +93,7 @@ def _harms(text: str) -> str:
         for pattern in _HARM:
             for match in pattern.finditer(plain):
                 before = re.split(r"[,;]", plain[: match.start()])[-1]
-                if not _denied(before) and not re.search(
+                if not is_denied(before) and not re.search(
                     r"\b(?:like|as if|as though|as \w+ as)\b", before + match.group()
                 ):
                     return match.group().strip()
@@ -125,15 +103,15 @@ def _harms(text: str) -> str:
 def _destroys(text: str) -> str:
     for clause in _clauses(text):
         for pattern in _DESTROY_PHRASES:
-            if (match := pattern.search(clause)) and not _denied(clause[: match.start()]):
+            if (match := pattern.search(clause)) and not is_denied(
+                clause[: match.start()], clause[match.end() :]
+            ):
                 return match.group().strip()
         for match in _DESTROY_VERB.finditer(clause):
-            before = clause[: match.start()]
-            if re.match(
-                r" ?(?:\w+ )?(?:force|grip|pressure|squeeze|grasp)\b", clause[match.end() :]
-            ):
+            before, behind = clause[: match.start()], clause[match.end() :]
+            if re.match(r" ?(?:\w+ )?(?:force|grip|pressure|squeeze|grasp)\b", behind):
                 continue  # 'cut the grip force by half'
-            if _denied(before) or re.search(
+            if is_denied(before, behind) or re.search(
                 r"\b(?:better|rather|sooner|too|easy|easily|hard|how|any|than|the|a|no|of)\s*$",
                 before,
             ):
@@ -149,7 +127,7 @@ def _releases(text: str) -> str:
         for pattern in _RELEASE:
             for match in pattern.finditer(clause):
                 before, after = clause[: match.start()], clause[match.end() :]
-                if _denied(before) or re.match(
+                if is_denied(before, after) or re.match(
                     r" (?:of )?(?:the|that|this|your|any|all)? ?(?:\w+ ){0,2}(?:idea|notion|act|thought|approach|macho|pressure|tension|force)\b",
                     after,
                 ):
@@ -162,7 +140,7 @@ def _releases(text: str) -> str:
                     continue
                 return match.group().strip()
         down = re.search(_PUT_DOWN, clause)
-        if down is None or _denied(clause[: down.start()]) or _FORCE_NOUN.search(down.group()):
+        if down is None or is_denied(clause[: down.start()]) or _FORCE_NOUN.search(down.group()):
             continue
         if not _HOLD.search(text[: text.find(down.group())]):
             return down.group().strip()
@@ -170,7 +148,6 @@ def _releases(text: str) -> str:
 
 
 def _stops(text: str) -> str:
-    held = list(_HOLD.finditer(text))
     for sentence, _ in sentences(text):
         for pattern in _STOP:
             for match in pattern.finditer(sentence):
@@ -183,38 +160,10 @@ def _stops(text: str) -> str:
                     continue  # 'grip it and wait'
                 if (
                     not re.search(r"\bto\s*$", before)
-                    and not _denied(before)
+                    and not is_denied(before)
                     and not has_manner(sentence[match.end() :])
                 ):
                     return match.group().strip()
-        for clause in CLAUSE.split(sentence):
-            hold = _NEGATIVE_HOLD.search(clause or "")
-            if hold is None or _denied(clause[: hold.start()]):
-                continue
-            if re.search(r"\b(?:i|we) (?:can|could|will|may)\s*$", clause[: hold.start()]):
-                continue  # 'I can't hold it myself'
-            if hold["verb"].startswith("mov") and re.search(
-                r"\b(?:it|berry|fruit|one|this|that|strawberry)\b", clause[: hold.start()]
-            ):
-                continue  # 'it must not move' wants a firm grip
-            if hold["verb"].startswith("mov") and len(held) > 1:
-                continue  # 'don't move, only hold it'
-            if _OTHER_THING.match(hold["after"]) and len(held) > 1:
-                continue  # 'don't take the lid, take the berry'
-            if hold["verb"].startswith("mov") and (
-                _HOLD.search(text[: text.find(hold.group())])
-                or MARK in text[: text.find(hold.group())]
-            ):
-                continue  # 'grip it and don't move'
-            after = hold["after"]
-            if (
-                has_manner(hold.group())
-                or re.search(r"\b(?:(?:so|too|that|as) (?:often|long)|much)\b", after)
-                or MARK in after
-                or _UNLESS.search(after)
-            ):
-                continue
-            if re.match(r"(?:squeez|press|pinch|clamp)", hold["verb"]) and len(held) > 1:
-                continue  # 'pick it up without squeezing'
-            return hold.group().strip()
+        if found := prohibition(sentence, text):
+            return found
     return ""

@@ -39,15 +39,24 @@ CLAUSE = re.compile(
 """What ends the reach of a negation within a sentence."""
 
 
+_ASIDE = re.compile(
+    r"(\b(?:not|never|must|may|should|shall|can|could|will|would|is|are|be|to|do|does)),? "
+    r"(?:under any circumstances?|in any (?:case|event|way|circumstances?)|at any (?:time|cost|price|point)|on any account|by any means(?! necessary)|"
+    r"for any reason|whatsoever|whatever happens|at all costs|(?<=, )(?:please|ever|really|however|therefore|of course|i repeat|i insist|for \w+'?s? sake)(?=,)),?(?= (?!do not\b|not\b|never\b))"
+)
+"""Said between a denial and its verb: 'do not, under any circumstances, exceed 1 N'."""
+
+
 def plain(text: str) -> str:
     """Lower case, straight quotes, contractions written out, single spaces."""
     text = re.sub("(\\d*) ?([½¼¾⅓⅔⅛])", _mixed, text)
+    text = re.sub("(?<=[\\w)])([⁰¹²³⁴⁵⁶⁷⁸⁹])", r"^\1", text)  # '0.5²' is no 0.52
     text = unicodedata.normalize("NFKC", text).lower()
     text = text.replace("()", "").replace("’", "'").replace("`", "'").replace("−", "-")
     for pattern, replacement in _CONTRACTIONS:
         text = re.sub(pattern, replacement, text)
     text = re.sub(r"\banything (?:but|other than|except)\b", "not", text)
-    return " ".join(text.split())
+    return _ASIDE.sub(r"\1", " ".join(text.split()))
 
 
 def _mixed(match: re.Match[str]) -> str:

@@ -27,6 +27,8 @@ _PLAIN: tuple[tuple[str, str], ...] = (
     (rf"(?:,|\bwith|\band|\bto)?\s*\b(?:an? |the )?{_NOUN}(?: of| is| to|:)?\s*(?:±\s*)?({_BARE}\s*{_PART})", r" ± \1"),
     (rf"(?:,|\bwith|\band|\bto)?\s*(?:\b(?:an? |the ))?(?:±\s*)?\b({_BARE}\s*{_PART})[ -]{_NOUN}\b", r" ± \1"),
     (rf"\baccurate to ({_BARE}\s*{_PART})", r" ± \1"),
+    (rf"({_ONE})\s*\(?\+\s*({_BARE})\s*[/,]\s*-\s*({_BARE})\s*\)?(?!\s*{_PART})(?![\d.,])", r"\1 (+\2/-\3)"),
+    (rf"({_ONE})\s*\(?-\s*({_BARE})\s*[/,]\s*\+\s*({_BARE})\s*\)?(?!\s*{_PART})(?![\d.,])", r"\1 (+\3/-\2)"),
     (rf"\(?\+\s*({_BARE})\s*({_PART})?\s*[/,]?\s*-\s*({_BARE})\s*({_PART})\s*\)?", r"(+\1 \2/-\3 \4)"),
     (rf"\(?-\s*({_BARE})\s*({_PART})?\s*[/,]?\s*\+\s*({_BARE})\s*({_PART})\s*\)?", r"(+\3 \4/-\1 \2)"),
 )  # fmt: skip

@@ -35,6 +35,12 @@ _DERIVED = re.compile(
 )
 """Torques, stiffnesses, rates: a force is only a part of them."""
 
+_FORMULA = re.compile(
+    rf"(?:\b[a-z]+\(\s*{NUMBER}\s*\)|\b{NUMBER}\)?\s*(?:\^|\*\*|/)\s*\(?{NUMBER}\)?)\s*(?:{UNIT})\b|"
+    rf"(?:\(\s*{NUMBER}\s*[+*/]\s*{NUMBER}\s*\)|(?:√\s*\(?|{NUMBER}\s*[*×x])(?=\d){NUMBER}\)?)\s*(?:{UNIT})\b|"
+    rf"{NUMBER}\s*(?:{UNIT})\b\s*(?:\^|\*\*|\*|/|×|·|x(?= ?\d)|times\b|divided by\b)\s*\d[\d.,]*"
+)
+"""Powers, roots and quotients are not worked out."""
 _DIGITS = r"(?<![\w.,])\d+(?:[.,]\d+){2,}"
 _MALFORMED = re.compile(
     rf"(?P<a>{_DIGITS})\s*(?:{UNIT})\b|(?:{BEFORE_BOUND}|{BEFORE_VALUE})(?P<b>{_DIGITS})(?![.,]?\w)"
@@ -51,6 +57,10 @@ def unknown_force(text: str) -> str:
         digits = malformed["a"] or malformed["b"]
         if not re.fullmatch(NUMBER, digits):
             return f"{digits!r} is no number; say it as '1.2 N'"
+    if match := re.search(rf"\d(?:[.,]\d+)?e[+-]?\d{{5,}}\s*(?:{UNIT})\b", text):
+        return f"{match[0]!r} is no force; say it as '1.2 N'"
+    if match := _FORMULA.search(text):
+        return f"{match[0]!r} is a formula; name the force as one number, as in '1.5 N'"
     if match := _DERIVED.search(text):
         return _reason(match)
     has_force = re.search(rf"{NUMBER}\s*-?\s*(?:{UNIT})\b", text) is not None

@@ -32,6 +32,9 @@ def middle_n(text: str) -> float:
         "Use less force here than usual.",
         "Hold it not as firmly as before.",
         "It is very fragile, so pick it with great care.",
+        "It is too soft for a firm grip.",
+        "Too delicate to grip hard.",
+        "Do not, I say, do not hold it firmly.",
     ],
 )
 def test_gentle_words_lower_the_middle_of_the_band(text):
@@ -51,6 +54,7 @@ def test_gentle_words_lower_the_middle_of_the_band(text):
         "Squeeze harder than usual.",
         "Use more force here than usual.",
         "Hold it firmly, not gently.",
+        "It is too slippery for a gentle grip.",
     ],
 )
 def test_firm_words_raise_the_middle_of_the_band(text):

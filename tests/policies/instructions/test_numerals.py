@@ -36,6 +36,9 @@ def test_every_decimal_in_words_is_read_as_that_decimal(whole, digits):
         ("zero point oh five newtons", "0.05 newtons"),
         ("twelve hundred millinewtons", "1200 millinewtons"),
         ("a hundred and twenty grams of force", "120 grams of force"),
+        ("two to three hundred millinewtons", "200 to 300 millinewtons"),
+        ("twenty two to three hundred millinewtons", "22 to 300 millinewtons"),
+        ("five to one hundred millinewtons", "5 to 100 millinewtons"),
     ],
 )
 def test_fractions_and_colloquial_numbers_are_read_as_people_mean_them(said, digits):

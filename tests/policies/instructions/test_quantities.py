@@ -6,8 +6,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from policies.contract import read_contract
 from policies.instructions.force_units import GRAM_N
 from policies.instructions.reader import read_request
+from tests.fakes.contracts import terms
 from tests.policies.instructions.number_words import decimal_in_words, in_words
 
 UNITS = {
@@ -228,6 +230,20 @@ def test_a_factor_on_the_usual_force_is_read_as_one(text, factor):
 
 
 @pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("It must not be gripped twice as hard.", "twice as hard"),
+        ("Never hold it 30 % harder than usual.", "30 % harder"),
+        ("Do not hesitate to grip it twice as hard.", ""),
+        ("Never let it slip and grip it twice as hard.", ""),
+        ("Do not drop it, grip it twice as hard.", ""),
+    ],
+)
+def test_a_factor_that_is_only_denied_is_reported(text, words):
+    assert read_request(text).numbers.denied == words
+
+
+@pytest.mark.parametrize(
     ("text", "factor"),
     [
         ("Two times harder.", 2.0),
@@ -264,6 +280,18 @@ def test_a_sum_of_forces_or_percent_is_worked_out(text, force_n):
         ("Raise it slowly by 0.2 N/s.", "'n/s' is no unit of force; say N"),
         ("Hold it with 1.2.3 N.", "'1.2.3' is no number"),
         ("Hold it with 1.2.3.", "'1.2.3' is no number"),
+        ("2^2 N", "'2^2 n' is a formula"),
+        ("Hold it with 0.5² N.", "is a formula"),
+        ("sqrt(2) N", "is a formula"),
+        ("1/0.5 N", "is a formula"),
+        ("2 N * 0.5", "is a formula"),
+        ("2*3 N", "is a formula"),
+        ("(1+1) N", "is a formula"),
+        ("√2 N", "is a formula"),
+        ("2 x 3 N", ""),
+        ("1e99999 N", "is no force"),
+        ("Hold it with 1/2 N.", ""),
+        ("Hold it with 1e3 mN.", ""),
         ("Hold it with 2 fingers.", ""),
         ("Try at most 3 attempts, with 1 N.", ""),
         ("Come at 3 o'clock and hold it with 1 N.", ""),
@@ -273,6 +301,30 @@ def test_a_sum_of_forces_or_percent_is_worked_out(text, force_n):
 def test_a_number_of_an_unknown_unit_or_a_malformed_one_is_reported(text, named):
     unread = read_request(text).numbers.unread
     assert (named in unread) if named else unread == ""
+
+
+@pytest.mark.parametrize(
+    ("text", "number"),
+    [
+        ("grip strength 5", "5"),
+        ("Grip strength: 5", "5"),
+        ("strength of 0.5", "0.5"),
+        ("Hold it at level 3.", "3"),
+        ("Set the intensity to 4.", "4"),
+        ("Grip it at 7 out of 10.", "7"),
+        ("Hold it with 3/10.", "3"),
+        ("Hold it at 5.", "5"),
+        ("Pick berry 3.", ""),
+        ("Grip strength 1 N.", ""),
+    ],
+)
+def test_a_number_on_a_scale_of_its_own_is_reported(text, number):
+    assert read_request(text).numbers.unitless == number
+
+
+@pytest.mark.parametrize("text", ["1e100 mN", "1e400 N", "1e-400 N"])
+def test_no_part_of_a_number_with_a_long_exponent_is_read_as_a_force(text):
+    assert read_contract(text, terms(), {}).refused
 
 
 @pytest.mark.parametrize("text", ["100 grams", "12 oz, please.", "3 ounces!"])

@@ -1,0 +1,57 @@
+"""Bounds of a force that are said in an unusual order, written as plainly as the others.
+
+'1 N must not be exceeded' becomes 'at most 1 n', '1 N >= force' becomes 'force <= 1 n', and
+'not below 0.5 N or above 1 N' becomes 'not below 0.5 n or not above 1 n': the denial counts for both.
+"""
+
+from __future__ import annotations
+
+import re
+
+from policies.instructions.denials import NO_CASE
+from policies.instructions.force_units import LOOSE, NUMBER, UNIT
+
+_ONE = rf"(?P<one>{NUMBER}(?:\s*-?\s*(?:{UNIT}|{LOOSE})\b)?(?: of (?:grip )?force\b)?)"
+_NOT = rf"(?:not|never|no longer|{NO_CASE})"
+_MODAL = (
+    r"(?:must|may|should|shall|can|could|will|would|ought(?: to)?|is|are|be|to|has|have|needs?)"
+)
+_EXCEEDED = r"(?:exceeded|surpassed|topped|overstepped|overshot|outdone|bettered|passed|crossed|reached|hit|attained|gone (?:over|above|beyond|past))"
+_UNDERCUT = r"(?:undercut|undershot|underrun|fallen below|gone (?:below|under))"
+_WHAT = r"(?: (?:mark|limit|line|threshold|level|force))?"
+_MORE = r"(?:more than|over|above|beyond|past|exceed(?:ing)?|higher than|harder than|greater than|firmer than)"
+_LESS = r"(?:less than|under|below|beneath|lower than|softer than|smaller than|fewer than)"
+_FORCE = r"(?:the )?(?:grip(?:ping)? )?(?:force|f|grip|pressure|it|x)\b"
+_ADVERB = r"(?: \w+ly| ever| to| be| under any circumstances| at any time)*"
+
+_BEHIND = rf"{_ONE}{_WHAT},? (?:(?:which|that) )?(?:{_MODAL} )*{_NOT}{_ADVERB} "
+_SHORT_WORDS = r"(?:(?!no\b|not\b|nor\b|never\b)\w+ ){0,2}"
+
+_PLAIN: tuple[tuple[str, str], ...] = (
+    (rf"{_BEHIND}{_EXCEEDED}\b", r"at most \g<one>"),
+    (rf"{_BEHIND}{_UNDERCUT}\b", r"at least \g<one>"),
+    (rf"\bwithout {_ONE}{_WHAT} (?:ever )?being {_EXCEEDED}\b", r"at most \g<one>"),
+    (rf"\b(?:no|not) less (?:and|but|or),? (?:also )?(?:no|not) more than {_ONE}", r"no less than \g<one> and no more than \g<one>"),
+    (rf"\b(?:no|not) more (?:and|but|or),? (?:also )?(?:no|not) less than {_ONE}", r"no less than \g<one> and no more than \g<one>"),
+    (rf"\bneither (?:more nor less|less nor more) than {_ONE}", r"no less than \g<one> and no more than \g<one>"),
+    (rf"{_ONE} (?:>=|≥|=>) ?{_FORCE}", r"force <= \g<one>"),
+    (rf"{_ONE} > ?{_FORCE}", r"force < \g<one>"),
+    (rf"{_ONE} (?:<=|≤|=<) ?{_FORCE}", r"force >= \g<one>"),
+    (rf"{_ONE} < ?{_FORCE}", r"force > \g<one>"),
+    (rf"(\b(?:not|never|no|avoid\w*|without)\b[^.;,#\d]*?\b{_LESS} {_ONE},? (?:or|and)) (?={_SHORT_WORDS}{_MORE} )", r"\1 not "),
+    (rf"(\b(?:not|never|no|avoid\w*|without)\b[^.;,#\d]*?\b{_MORE} {_ONE},? or) (?={_SHORT_WORDS}{_LESS} )", r"\1 not "),
+    (rf"{_ONE},? but (?:a (?:bit|little|touch) |slightly |rather )?(?:softer|gentler|lighter|less|lower)\b(?! than)", r"less than \g<one>"),
+)  # fmt: skip
+
+_THAN = re.compile(
+    r"\b(more|less|fewer|greater|higher|lower|harder|softer|firmer|gentler|tighter|lighter|stronger|weaker) (?:then|tan|thn)(?= (?:about |around |roughly |exactly )?[\d.])"
+)
+"""'No more then 1 N'."""
+
+
+def with_plain_bounds(text: str) -> str:
+    """Write each bound of a plain text, its numbers in digits, with its words before its force."""
+    text = _THAN.sub(r"\1 than", text)
+    for pattern, plainly in _PLAIN:
+        text = re.sub(pattern, plainly, text)
+    return text
