@@ -141,7 +141,7 @@ def check_within(loads_n: Sequence[float], least_n: float, most_n: float, whose:
         loads_n: Loads, rising [N].
         least_n: Smallest force [N].
         most_n: Largest force [N].
-        whose: What sets these limits, for the message.
+        whose: These limits in words, for the message.
 
     Raises:
         UsageError: A load is beyond them.
@@ -152,8 +152,8 @@ def check_within(loads_n: Sequence[float], least_n: float, most_n: float, whose:
     example = default_loads(math.floor(100 * most_n) / 100)
     like = f", like --loads {_listed(example)}" if example[0] >= least_n else ""
     raise UsageError(
-        f"--loads {_listed(loads_n)}: {_listed(beyond)} N can't be pressed, {whose} {least_n:g} to "
-        f"{most_n:.4g} N; give loads within{like}; nothing moved"
+        f"--loads {_listed(loads_n)} goes beyond {whose}, {least_n:g} to {most_n:.4g} N (at "
+        f"{_listed(beyond)}); give loads within{like}; nothing moved"
     )
 
 

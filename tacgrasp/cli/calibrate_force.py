@@ -136,7 +136,7 @@ def _loads(flags: CalibrateForceFlags, config: RunConfig) -> tuple[tuple[float, 
     except TouchError as error:
         raise UsageError(f"--loads: {error}") from None
     if by_gripper:
-        whose = f"gripper.min_force_n to max_force_n of {flags.rig} are"
+        whose = f"gripper.min_force_n to max_force_n of {flags.rig}"
         check_within(loads_n, limits.min_force_n, limits.max_force_n, whose)
     if by_world and flags.by == "gripper":
         remarks.append(
@@ -204,7 +204,7 @@ def _loaded(
         prepare(sensor)
         gripper = connect_gripper(config.hardware.dynamixel_gripper)
         try:
-            whose = "by its calibration and max_current_ma the gripper has"
+            whose = "what the gripper's calibration and max_current_ma allow"
             check_within(loads_n, 0.0, gripper.max_force_n, whose)
             yield sensor, GripperLoads(gripper, RealClock()), "the calibrated gripper"
         finally:
