@@ -114,7 +114,7 @@ def test_an_existing_calibration_is_kept_unless_it_may_be_replaced(rig, csv, cap
     assert "exists and is kept; give --overwrite" in capsys.readouterr().err
     assert made.read_text() == "mine"
     assert main([*argv, "--overwrite"]) == 0
-    assert load_calibration(made).num_readings == 4
+    assert load_calibration(made).source == "readings.csv"
 
 
 @pytest.mark.parametrize("is_mute", [False, True])

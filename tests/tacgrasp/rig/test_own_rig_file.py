@@ -365,7 +365,7 @@ FORCE = ["calibrate", "force", "--by", "gripper", "--overwrite"]
     ("most_n", "loads", "message"),
     [
         (1.5, ["1", "2", "4"], "max_force_n of mine.yaml, 0.1 to 1.5 N (at 2 4)"),
-        (40, ["1", "2", "30"], "calibration and max_current_ma allow, 0 to 12.6 N (at 30)"),
+        (40, ["1", "2", "30"], "calibration and max_current_ma allow, 0 to 12.86 N (at 30)"),
     ],
 )
 def test_no_load_beyond_a_limit_is_pressed(
