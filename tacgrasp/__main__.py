@@ -30,9 +30,14 @@ COMMANDS = {
     "bench": "measure and print figures: strawberry, latency, gel, balls, faults, ...",
 }
 
-ON_ALL_CORES = ("train", "eval", "data", "calibrate", "bench")
+ON_ALL_CORES = ("train", "eval", "data", "bench", "calibrate gelsight-mini")
 """Commands with much to compute at once. The others compute in steps of milliseconds and keep to
 one thread: on a busy machine, threads that wait for each other took up to fifteen times as long."""
+
+MOVE_A_ROBOT = ("run", "replay", "calibrate", "doctor", "jog")
+"""Commands with real devices, which SIGTERM and SIGHUP end as Ctrl-C does. The others have nothing
+to make safe: emulators and workers of a pool end with the process that started them, a training is
+resumed from its last checkpoint, and ``view`` hears SIGTERM itself, to end its viewer."""
 
 FILE_ERRORS = (
     *(errno.EACCES, errno.EDQUOT, errno.EFBIG, errno.EINVAL, errno.EIO, errno.EISDIR),
@@ -40,13 +45,18 @@ FILE_ERRORS = (
 )
 """Errors of the operating system that are no bugs of ours: a disk or folder refused a file."""
 
+STOPPED = 130
+"""Exit code of a command that Ctrl-C ended."""
+
 EXIT_CODES = """\
 Exit codes:
   0    success (for run: a verified grasp)
   1    any other end of an episode, a differing decision, a demo or benchmark that failed
   2    wrong use: unknown command, flag, field, file or value, or a refused instruction
   3    fault: robot, sensor, policy or recorder failed, or a bug
-  130  stopped by the operator (Ctrl-C)"""
+  130  stopped by the operator (Ctrl-C)
+  143  stopped by SIGTERM; 129 by SIGHUP, as of a closed terminal. What has real devices ends as by
+       Ctrl-C before"""
 
 
 def usage() -> str:
@@ -72,11 +82,21 @@ def main(argv: Sequence[str] | None = None) -> int:
 
         _print(f"tacgrasp {__version__}")
         return 0
+    if argv[0] not in MOVE_A_ROBOT:
+        return _run(argv)
+    from tacgrasp.base.stop_signals import stop_signals_as_ctrl_c
+
+    with stop_signals_as_ctrl_c() as received:
+        code = _run(argv)
+    return 128 + received[0] if received and code == STOPPED else code
+
+
+def _run(argv: Sequence[str]) -> int:
     try:
         return _dispatch(argv[0], argv[1:])
-    except KeyboardInterrupt:
-        _print_error("stopped by the operator")
-        return 130
+    except KeyboardInterrupt as stop:
+        _print_error(str(stop) or "stopped by the operator")
+        return STOPPED
     except BrokenPipeError:  # the reader of our output has gone
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 1
@@ -91,7 +111,7 @@ def _dispatch(command: str, argv: Sequence[str]) -> int:
         if command not in COMMANDS:
             raise UsageError(f"unknown command {command!r}; known: {', '.join(COMMANDS)}")
         check_packages()
-        if command not in ON_ALL_CORES:
+        if command not in ON_ALL_CORES and " ".join([command, *argv[:1]]) not in ON_ALL_CORES:
             for variable in THREADS:  # read as numpy and torch are imported
                 os.environ.setdefault(variable, "1")
         module = importlib.import_module(f"tacgrasp.cli.{command}")

@@ -116,8 +116,8 @@ def run_episode(
         end = EndOfEpisode(EndReason.LIMIT, str(error))
     except (RobotError, TouchError, PolicyError, EpisodeError) as error:
         end = EndOfEpisode(EndReason.FAULT, str(error))
-    except KeyboardInterrupt:
-        end = EndOfEpisode(EndReason.OPERATOR, "stopped by the operator")
+    except KeyboardInterrupt as stop:
+        end = EndOfEpisode(EndReason.OPERATOR, str(stop) or "stopped by the operator")
     finally:
         ending = Ending(
             rig=rig,

@@ -28,6 +28,18 @@ def check_ending(path: Path, *endings: str, flag: str = "--out") -> None:
         raise UsageError(f"{flag} expects a file ending in {' or '.join(endings)}, got {path}")
 
 
+def check_kept(path: Path, *, overwrite: bool) -> None:
+    """Refuse to write over a file that took somebody a measurement, before the next one begins.
+
+    Raises:
+        UsageError: The file exists, and may not be replaced.
+    """
+    if path.exists() and not overwrite:
+        raise UsageError(
+            f"{path} exists and is kept; give --overwrite to replace it, or another file by --out"
+        )
+
+
 def write_result(path: Path, text: str, *, flag: str = "--json", ending: str = ".json") -> None:
     """Write a text all at once in the place of a file of its kind, or into a pipe or terminal.
 

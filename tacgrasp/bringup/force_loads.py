@@ -9,6 +9,7 @@ Not here: the fit and its file (``cltp.sensing.force_calibration``).
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -18,13 +19,17 @@ import numpy as np
 
 from cltp.atomic_write import write_atomically
 from cltp.errors import TouchError
-from cltp.sensing.force_calibration import ForceLoad
+from cltp.sensing.force_calibration import MIN_LOADS, MIN_RANGE, ForceLoad
 from cltp.tactile.measure import contact_state
 from primitives.devices import Gripper
 from primitives.errors import RobotError
 from tacgrasp.base.errors import UsageError
 from tacgrasp.rig.gel_sense import GelSense
 from tacgrasp.rig.protocols import Clock, Rig, TactileSensor
+from tacgrasp.rig.release import let_go, opened_afterwards
+
+LOADS_N = (0.5, 1.0, 2.0, 5.0)
+"""Loads where none are named [N]."""
 
 NUM_FRAMES = 10
 """Frames of one reading."""
@@ -49,6 +54,9 @@ class LoadSource(Protocol):
     def press(self, load_n: float) -> float:
         """Put a load on the pad; returns its true force, near ``load_n`` [N]."""
 
+    def end(self) -> None:
+        """Leave nothing that presses by itself, whatever has happened; asks nobody."""
+
 
 @dataclass(frozen=True, slots=True)
 class PersonLoads:
@@ -67,6 +75,9 @@ class PersonLoads:
         )
         return load_n
 
+    def end(self) -> None:
+        """A weight is taken off by who put it there."""
+
 
 @dataclass(frozen=True, slots=True)
 class GripperLoads:
@@ -83,6 +94,9 @@ class GripperLoads:
         self.clock.sleep(SETTLE_S)
         return force_n
 
+    def end(self) -> None:
+        let_go(self.gripper, CLEAR_M)
+
 
 @dataclass(frozen=True, slots=True)
 class WorldLoads:
@@ -91,8 +105,7 @@ class WorldLoads:
     rig: Rig
 
     def release(self) -> None:
-        if self.rig.gripper.state().closed:
-            self.rig.gripper.open_by(CLEAR_M)
+        let_go(self.rig.gripper, CLEAR_M)
 
     def press(self, load_n: float) -> float:
         truth = self.rig.truth()
@@ -102,6 +115,50 @@ class WorldLoads:
         self.rig.clock.sleep(SETTLE_S)
         after = self.rig.truth()
         return 0.0 if after is None else after.force_n
+
+    def end(self) -> None:
+        let_go(self.rig.gripper, CLEAR_M)
+
+
+def default_loads(most_n: float) -> tuple[float, ...]:
+    """``LOADS_N`` up to a limit, which is then the largest; spread anew where too few are left [N].
+
+    Args:
+        most_n: The limit [N].
+    """
+    if most_n >= LOADS_N[-1]:
+        return LOADS_N
+    loads_n = (*(load_n for load_n in LOADS_N if load_n < most_n), most_n)
+    if len(loads_n) >= MIN_LOADS and most_n >= MIN_RANGE * loads_n[0]:
+        return loads_n
+    return most_n / 4, most_n / 2, most_n
+
+
+def check_within(loads_n: Sequence[float], least_n: float, most_n: float, whose: str) -> None:
+    """Refuse loads that a gripper may not press with, before anything moves.
+
+    Args:
+        loads_n: Loads, rising [N].
+        least_n: Smallest force [N].
+        most_n: Largest force [N].
+        whose: These limits in words, for the message.
+
+    Raises:
+        UsageError: A load is beyond them.
+    """
+    beyond = [load_n for load_n in loads_n if not least_n <= load_n <= most_n * (1 + 1e-9)]
+    if not beyond:
+        return
+    example = default_loads(math.floor(100 * most_n) / 100)
+    like = f", like --loads {_listed(example)}" if example[0] >= least_n else ""
+    raise UsageError(
+        f"--loads {_listed(loads_n)} goes beyond {whose}, {least_n:g} to {most_n:.4g} N (at "
+        f"{_listed(beyond)}); give loads within{like}; nothing moved"
+    )
+
+
+def _listed(loads_n: Sequence[float]) -> str:
+    return " ".join(f"{load_n:.4g}" for load_n in loads_n)
 
 
 def measure_loads(
@@ -115,6 +172,8 @@ def measure_loads(
 ) -> list[ForceLoad]:
     """Put every load on the pad and read it; the pad is free afterwards.
 
+    On every other way out too, Ctrl-C among them, a gripper is opened.
+
     Args:
         sensor: Connected sensor.
         source: Puts the loads.
@@ -126,17 +185,18 @@ def measure_loads(
     Raises:
         TouchError: The sensor fails, nothing touches it under a load, or the pad's edge cuts the
             contact.
-        RobotError: The gripper fails.
+        RobotError: The gripper fails; the message says if it may still hold.
     """
     sense, readings = GelSense(sensor), list(measured)
-    for load_n in loads_n[len(readings) :]:
+    with opened_afterwards(source.end):
+        for load_n in loads_n[len(readings) :]:
+            source.release()
+            sense.take_reference()
+            true_n = source.press(load_n)
+            readings.append(ForceLoad(load_n=true_n, read_n=_read_n(sense, true_n)))
+            keep(readings)
+            report(f"load      {true_n:.3f} N, read {readings[-1].read_n:.3f} nominal N")
         source.release()
-        sense.take_reference()
-        true_n = source.press(load_n)
-        readings.append(ForceLoad(load_n=true_n, read_n=_read_n(sense, true_n)))
-        keep(readings)
-        report(f"load      {true_n:.3f} N, read {readings[-1].read_n:.3f} nominal N")
-    source.release()
     return readings
 
 

@@ -21,6 +21,7 @@ from primitives.limits import Limits, check_workspace, clamp_force
 from tacgrasp.base.errors import UsageError
 from tacgrasp.rig.gel_sense import GelSense
 from tacgrasp.rig.protocols import Rig
+from tacgrasp.rig.release import let_go, opened_afterwards
 
 STEP_MM = 2.0
 """Length of a step. Our choice: several times the error of a contact's position, and below the
@@ -90,12 +91,10 @@ def _contact_position(rig: Rig, force_n: float, clear_mm: float) -> NDArray[np.f
     """Close from open, measure the position of the contact on the pad [mm], and open again."""
     sense = GelSense(rig.sensor)
     sense.take_reference()
-    rig.gripper.grip(force_n)
-    try:
+    with opened_afterwards(lambda: let_go(rig.gripper, clear_mm / 1000)):
+        rig.gripper.grip(force_n)
         cloud = sense.read()
         state = contact_state(cloud, in_contact=sense.in_contact(cloud))
-    finally:
-        rig.gripper.open_by(clear_mm / 1000)
     if not state.in_contact or state.cut:
         problem = "runs over the pad's edge" if state.in_contact else "is missing"
         raise TouchError(

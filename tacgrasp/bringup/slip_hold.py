@@ -8,6 +8,10 @@ from __future__ import annotations
 from cltp.errors import TouchError
 from cltp.tactile.shear.field import ShearField
 from tacgrasp.rig.protocols import Rig, ShearSensor
+from tacgrasp.rig.release import let_go, opened_afterwards
+
+CLEAR_M = 0.01
+"""Opening afterwards [m]."""
 
 UNLOAD_STEPS, LEAST_FACTOR = 10, 0.4
 """Steps of the unload, and the force at its end over that of the hold. Our choice: a contact that
@@ -17,7 +21,7 @@ nothing pulls at does not slide under either."""
 def held_frames(
     rig: Rig, force_n: float, hold_s: float
 ) -> tuple[list[ShearField], list[ShearField]]:
-    """Grip, hold at rest, then let the force fall step by step; the object is let go at the end.
+    """Grip, hold at rest, then let the force fall step by step, and let go: on every way out.
 
     Args:
         rig: Devices, open, with an object between the fingers that stands by itself.
@@ -29,19 +33,17 @@ def held_frames(
 
     Raises:
         TouchError: The sensor measures no shear, or can't be read.
-        RobotError: The gripper failed.
+        RobotError: The gripper failed; the message says if it may still hold.
     """
     rig.sensor.take_reference()
-    rig.gripper.grip(force_n)
-    try:
+    with opened_afterwards(lambda: let_go(rig.gripper, CLEAR_M)):
+        rig.gripper.grip(force_n)
         hold = [_frame(rig) for _ in range(round(hold_s * rig.sensor.spec.frame_hz))]
         unload = []
         for step in range(1, UNLOAD_STEPS + 1):
             rig.gripper.grip(force_n * (1 - (1 - LEAST_FACTOR) * step / UNLOAD_STEPS))
             unload += [_frame(rig) for _ in range(2)]
         return hold, unload
-    finally:
-        rig.gripper.open_by(0.01)
 
 
 def _frame(rig: Rig) -> ShearField:

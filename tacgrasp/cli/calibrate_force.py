@@ -5,13 +5,14 @@ from __future__ import annotations
 import datetime
 import os
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 from tacgrasp.base.errors import UsageError
+from tacgrasp.base.result_file import check_kept
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -28,12 +29,14 @@ class CalibrateForceFlags:
 
     Gels differ in stiffness from unit to unit, so that forces read without this calibration are
     off by a third. Use a round tip (a ball of about 15 mm) under the weights, in the middle of the
-    pad. With --by gripper, the calibrated gripper closes on a round firm object instead. The world
-    of a simulated or emulated rig puts the loads itself and knows their force.
+    pad. With --by gripper, the calibrated gripper closes on a round firm object instead, with no
+    more than the rig's gripper.max_force_n, and is opened again, after Ctrl-C too. The world of a
+    simulated or emulated rig puts the loads itself and knows their force, whatever --by says.
 
     Attributes:
         rig: Name of a rig, or path of its YAML file.
-        loads: Loads [N], rising; at least three, the largest three times the smallest or more.
+        loads: Loads [N], rising; at least three, the largest three times the smallest or more. By
+            default 0.5 1 2 5, with a gripper up to the rig's limit.
         by: What loads the pad: weights that you put on it, or the rig's calibrated gripper.
         out: File to write; the one named in the rig's file if omitted, else
             force_calibration.json.
@@ -44,7 +47,7 @@ class CalibrateForceFlags:
     """
 
     rig: str = "sim"
-    loads: tuple[float, ...] = (0.5, 1.0, 2.0, 5.0)
+    loads: tuple[float, ...] | None = None
     by: Literal["weights", "gripper"] = "weights"
     out: Path | None = None
     overwrite: bool = False
@@ -56,30 +59,29 @@ class CalibrateForceFlags:
 def run(flags: CalibrateForceFlags) -> None:
     """Measure, fit, write the calibration and say what to do next."""
     from cltp.errors import TouchError
-    from cltp.sensing.force_calibration import check_load_values, fit_force
+    from cltp.sensing.force_calibration import fit_force
     from tacgrasp.bringup.force_loads import UnfinishedLoads, measure_loads
     from tacgrasp.config.layers import load
     from tacgrasp.console import make_console
 
-    try:
-        check_load_values(flags.loads)
-    except TouchError as error:
-        raise UsageError(f"--loads: {error}") from None
     config, _ = load(None, flags.rig, os.environ)
+    loads_n, remark = _loads(flags, config)
     config = config.model_copy(update={"object": flags.object, "seed": flags.seed})
     named = None if config.hardware is None else config.hardware.sensor.force_calibration
     out = flags.out or named or Path("force_calibration.json")
     sensor, unit = config.sensor, unit_of(config)
-    unfinished = UnfinishedLoads(out=out, sensor=sensor, unit=unit, loads_n=flags.loads)
+    unfinished = UnfinishedLoads(out=out, sensor=sensor, unit=unit, loads_n=loads_n)
     _check_paths(flags, out, unfinished.path)
     measured = unfinished.read() if flags.resume else []
     console = make_console()
-    with _loaded(flags, config) as (device, source, origin):
+    if remark:
+        console.print(f"loads     {remark}")
+    with _loaded(flags, config, loads_n) as (device, source, origin):
         try:
             readings = measure_loads(
                 device,
                 source,
-                flags.loads,
+                loads_n,
                 report=console.print,
                 keep=unfinished.keep,
                 measured=measured,
@@ -106,14 +108,49 @@ def unit_of(config: RunConfig) -> str:
     return "simulated" if config.hardware is None else config.hardware.sensor.unit
 
 
+def _has_world(config: RunConfig) -> bool:
+    """Whether a simulated or emulated world puts the loads."""
+    return config.devices != "hardware" or config.hardware is None
+
+
+def _loads(flags: CalibrateForceFlags, config: RunConfig) -> tuple[tuple[float, ...], str]:
+    """Loads [N] within the rig's limits, and what the operator should know of them.
+
+    Raises:
+        UsageError: They make no calibration, or a gripper would press beyond the limits.
+    """
+    from cltp.errors import TouchError
+    from cltp.sensing.force_calibration import check_load_values
+    from tacgrasp.bringup.force_loads import LOADS_N, check_within, default_loads
+
+    limits, by_world = config.gripper, _has_world(config)
+    by_gripper = by_world or flags.by == "gripper"
+    loads_n, remarks = flags.loads, []
+    if loads_n is None:
+        loads_n = default_loads(limits.max_force_n) if by_gripper else LOADS_N
+        if loads_n != LOADS_N:
+            listed = " ".join(f"{load_n:g}" for load_n in loads_n)
+            remarks.append(f"{listed} N, up to gripper.max_force_n {limits.max_force_n:g} N")
+    try:
+        check_load_values(loads_n)
+    except TouchError as error:
+        raise UsageError(f"--loads: {error}") from None
+    if by_gripper:
+        whose = f"gripper.min_force_n to max_force_n of {flags.rig}"
+        check_within(loads_n, limits.min_force_n, limits.max_force_n, whose)
+    if by_world and flags.by == "gripper":
+        remarks.append(
+            f"put by the {config.devices} world, which knows their true force; --by gripper is for "
+            "real devices"
+        )
+    return loads_n, "; ".join(remarks)
+
+
 def _check_paths(flags: CalibrateForceFlags, out: Path, unfinished: Path) -> None:
     """Refuse, before anything is measured, to write nowhere or over what is there."""
     if not out.parent.is_dir():
         raise UsageError(f"the calibration can't be written to {out}: {out.parent} is no folder")
-    if out.exists() and not flags.overwrite:
-        raise UsageError(
-            f"{out} exists and is kept; give --overwrite to replace it, or another file by --out"
-        )
+    check_kept(out, overwrite=flags.overwrite)
     if unfinished.exists() and not (flags.overwrite or flags.resume):
         raise UsageError(
             f"{unfinished} holds the readings of an interrupted measurement; continue it with "
@@ -135,14 +172,15 @@ def _write(out: Path, calibration: ForceCalibration) -> None:
 
 @contextmanager
 def _loaded(
-    flags: CalibrateForceFlags, config: RunConfig
+    flags: CalibrateForceFlags, config: RunConfig, loads_n: Sequence[float]
 ) -> Iterator[tuple[TactileSensor, LoadSource, str]]:
     """The sensor, what loads it, and the origin of the loads in words."""
-    from tacgrasp.bringup.force_loads import GripperLoads, PersonLoads, WorldLoads
+    from tacgrasp.bringup.force_loads import GripperLoads, PersonLoads, WorldLoads, check_within
     from tacgrasp.rig.factory import make_centred_rig
+    from tacgrasp.rig.gel_sense import prepare
     from tacgrasp.rig.hardware import RealClock, connect_sensor
 
-    if config.devices != "hardware" or config.hardware is None:
+    if config.hardware is None or _has_world(config):
         rig = make_centred_rig(config)
         try:
             yield rig.sensor, WorldLoads(rig), f"{flags.object} in the {config.devices} world"
@@ -163,8 +201,11 @@ def _loaded(
             return
         from tacgrasp.drivers.dynamixel.gripper import connect_gripper
 
+        prepare(sensor)
         gripper = connect_gripper(config.hardware.dynamixel_gripper)
         try:
+            whose = "what the gripper's calibration and max_current_ma allow"
+            check_within(loads_n, 0.0, gripper.max_force_n, whose)
             yield sensor, GripperLoads(gripper, RealClock()), "the calibrated gripper"
         finally:
             gripper.disconnect()
@@ -191,7 +232,7 @@ def _print(console: Console, calibration: ForceCalibration, out: Path, advice: s
 
 
 def _next(flags: CalibrateForceFlags, config: RunConfig, out: Path) -> str:
-    if config.devices != "hardware" or config.hardware is None:
+    if config.hardware is None or _has_world(config):
         return (
             "nothing: a simulated or emulated rig carries a calibration of its own, drawn from its "
             "seed"

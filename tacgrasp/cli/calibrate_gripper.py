@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from tacgrasp.base.errors import UsageError
-from tacgrasp.base.result_file import check_ending
+from tacgrasp.base.result_file import check_ending, check_kept
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -35,6 +35,7 @@ class CalibrateGripperFlags:
         source: Instrument that showed the force; stored in the file.
         date: Date of the readings, like 2026-01-31; today if omitted.
         out: File to write; the one named in the rig's file if omitted.
+        overwrite: Replace an existing file, once the new calibration is complete.
     """
 
     rig: Path
@@ -44,6 +45,7 @@ class CalibrateGripperFlags:
     source: str = ""
     date: str = ""
     out: Path | None = None
+    overwrite: bool = False
 
 
 def run(flags: CalibrateGripperFlags) -> None:
@@ -73,6 +75,7 @@ def run(flags: CalibrateGripperFlags) -> None:
         check_ending(flags.out, ".yaml", ".yml")
     if out.resolve() == flags.rig.resolve():
         raise UsageError(f"--out {out} is the rig's own file; name another")
+    check_kept(out, overwrite=flags.overwrite)
     if flags.readings is None:
         calibration = _measured(flags, settings, date, console)
     else:
@@ -108,19 +111,22 @@ def _measured(
 ) -> GripperCalibration:
     from tacgrasp.drivers.dynamixel.fingers import connect_fingers
     from tacgrasp.drivers.dynamixel.measure_calibration import calibrate_gripper, steps_ma
+    from tacgrasp.rig.release import opened_afterwards
 
     fingers = connect_fingers(settings)
     try:
         console.print("put the scale between the fingers, at zero; they will close")
         _read_line("press Enter when it is there, Ctrl-C to leave: ")
         max_ma = settings.max_current_ma if flags.max_ma is None else flags.max_ma
-        return calibrate_gripper(
-            fingers,
-            _ask_force,
-            steps_ma(max_ma, flags.steps),
-            date=date,
-            source=flags.source or "read by a person",
-        )
+        start_m = fingers.width_m()
+        with opened_afterwards(lambda: fingers.open_to(start_m)):
+            return calibrate_gripper(
+                fingers,
+                _ask_force,
+                steps_ma(max_ma, flags.steps),
+                date=date,
+                source=flags.source or "read by a person",
+            )
     finally:
         fingers.disconnect()
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from tacgrasp.base.errors import UsageError
-from tacgrasp.base.result_file import check_ending
+from tacgrasp.base.result_file import check_ending, check_kept
 
 
 @dataclass(frozen=True)
@@ -16,7 +16,8 @@ class CalibrateSlipFlags:
     """Find from which score a contact of this unit slips: hold an object still, then unload it.
 
     No force gauge is needed. Put a firm object between the fingers so that it stands by itself. The
-    gripper closes on it, holds it at rest, lowers the force step by step and opens.
+    gripper closes on it, holds it at rest, lowers the force step by step and opens; it opens after
+    Ctrl-C too.
 
     Attributes:
         rig: Name of a rig, or path of its YAML file.
@@ -87,5 +88,4 @@ def _check(flags: CalibrateSlipFlags) -> None:
     if not flags.out.parent.is_dir():
         raise UsageError(f"--out {flags.out}: {flags.out.parent} is no folder")
     check_ending(flags.out, ".json")
-    if flags.out.exists() and not flags.overwrite:
-        raise UsageError(f"{flags.out} exists and is kept; give --overwrite, or another file")
+    check_kept(flags.out, overwrite=flags.overwrite)

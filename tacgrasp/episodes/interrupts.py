@@ -1,4 +1,4 @@
-"""Delay Ctrl-C and SIGTERM while something must not be interrupted."""
+"""Delay Ctrl-C, SIGTERM and SIGHUP while something must not be interrupted."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from typing import Any
 
 @contextmanager
 def delayed_interrupts() -> Iterator[None]:
-    """Delay Ctrl-C and SIGTERM until the end of the block; their handlers run right after.
+    """Delay Ctrl-C, SIGTERM and SIGHUP until the end of the block; their handlers run right after.
 
     Only the main thread receives signals in Python; in any other thread this does nothing.
     """
@@ -21,7 +21,7 @@ def delayed_interrupts() -> Iterator[None]:
     received: list[int] = []
     handlers: dict[signal.Signals, Any] = {}
     try:
-        for number in (signal.SIGINT, signal.SIGTERM):
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             if callable(handler := signal.getsignal(number)):
                 handlers[number] = handler
                 signal.signal(number, lambda signum, _frame: received.append(signum))

@@ -7,12 +7,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from contextlib import suppress
 from itertools import count
 from typing import TypeVar
 
 from cltp.errors import TouchError
 from cltp.tactile.cloud import TactileCloud
-from cltp.tactile.contact.contact_test import NUM_FRAMES, UntouchedGel
+from cltp.tactile.contact.contact_test import NUM_FRAMES, UntouchedGel, prepare_tests
 from cltp.tactile.contact.raised_pad import is_raised, raised_text
 from cltp.tactile.measure import contact_state
 from cltp.tactile.sensors import SensorSpec
@@ -56,6 +57,16 @@ SPREADS = 1.6
 
 def _raise(error: TouchError, attempt: int) -> None:
     raise error
+
+
+def prepare(sensor: TactileSensor) -> None:
+    """Compute what every reference of a sensor needs, before a device with a watchdog is connected.
+
+    It takes this process for up to a second or two on a busy computer: the threads that feed a
+    watchdog would have to wait.
+    """
+    with suppress(TouchError):  # who reads the sensor next is told
+        prepare_tests(sensor.read())
 
 
 class GelSense:

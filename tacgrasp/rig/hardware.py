@@ -40,6 +40,7 @@ from tacgrasp.rig.driver_choice import (
     connect_plugin,
     gripper_findings,
 )
+from tacgrasp.rig.gel_sense import prepare
 from tacgrasp.rig.guard import GuardedArm
 from tacgrasp.rig.protocols import WatchedSensor
 
@@ -137,6 +138,8 @@ def connect(config: RunConfig, hardware: HardwareConfig, first_force_n: float) -
         ) as error:  # before an episode begins, a rig without its sensor is unusable
             raise RobotError(str(error)) from None
         stack.callback(sensor.disconnect)
+        if hardware.sensor.is_live:  # the first cloud of a recording is the episode's
+            prepare(sensor)
         gripper = connect_gripper_of(hardware.gripper)
         stack.callback(gripper.gripper.disconnect)
         _check_forces(config, gripper.max_force_n)

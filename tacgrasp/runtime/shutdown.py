@@ -14,6 +14,7 @@ from tacgrasp.episodes import EpisodeEnd, EpisodeError
 from tacgrasp.episodes.interrupts import delayed_interrupts
 from tacgrasp.episodes.record import TruthFacts
 from tacgrasp.rig.protocols import Rig
+from tacgrasp.rig.release import FREE_BY_HAND
 from tacgrasp.runtime.outcome import EndOfEpisode, EndReason, Outcome, Verification
 from tacgrasp.runtime.steps import Recorder, Step, Steps
 
@@ -26,12 +27,6 @@ INTERRUPTS_SURVIVED = 3
 
 STORED_NAMES = {"gripper_force_gain": "gripper_factor"}
 """Names of the truth's facts in episode files where they differ from the simulator's."""
-
-FREE_BY_HAND = (
-    "what it grips may still be held: support it, then switch the gripper's power off, or remove "
-    "the cause and open with tacgrasp jog (key o)"
-)
-"""Advice when a gripper that should release has failed: it takes no command any more."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

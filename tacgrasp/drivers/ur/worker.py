@@ -45,7 +45,8 @@ def main(argv: list[str]) -> NoReturn:
     """Connect, supervise, end. Never returns: the library's destructors would reconnect."""
     block = SharedStateBlock(int(argv[0]))
     settings = UrSettings.model_validate_json(argv[1])
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the owner's: it stops the arm
+    for number in (signal.SIGINT, signal.SIGHUP):  # Ctrl-C, and the end of the terminal
+        signal.signal(number, signal.SIG_IGN)  # they are the owner's: it stops the arm
     # A hanging library holds the interpreter: only the kernel can end this process then.
     signal.alarm(math.ceil(settings.start_timeout_s) + 1)
     starting = WorkerState()

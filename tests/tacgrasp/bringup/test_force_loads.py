@@ -7,11 +7,20 @@ from itertools import pairwise
 import pytest
 
 from cltp import TouchError
-from cltp.sensing.force_calibration import ForceLoad, fit_force
+from cltp.sensing.force_calibration import ForceLoad, check_load_values, fit_force
 from sim.gel.layer import gel_of
+from sim.grasp.devices import SimGripper
 from sim.grasp.rig import build
 from tacgrasp.base.errors import UsageError
-from tacgrasp.bringup.force_loads import PersonLoads, UnfinishedLoads, WorldLoads, measure_loads
+from tacgrasp.bringup.force_loads import (
+    LOADS_N,
+    PersonLoads,
+    UnfinishedLoads,
+    WorldLoads,
+    check_within,
+    default_loads,
+    measure_loads,
+)
 
 LOADS = (0.5, 1.0, 2.0)
 NOMINAL = gel_of("gelsight_mini")
@@ -90,6 +99,62 @@ def test_a_resumed_measurement_takes_the_readings_that_it_has_and_measures_the_o
     assert readings[0] == first
     assert [each.load_n for each in readings[1:]] == pytest.approx(LOADS[1:])
     assert [len(each) for each in kept] == [2, 3]
+
+
+@pytest.mark.parametrize("num_grips", [1, 2])
+def test_an_interrupted_measurement_leaves_the_pad_free(num_grips, monkeypatch):
+    rig, grip, grips = egg(), SimGripper.grip, []
+
+    def interrupted(self, force_n):
+        grips.append(grip(self, force_n))
+        if len(grips) == num_grips:
+            raise KeyboardInterrupt
+        return grips[-1]
+
+    monkeypatch.setattr(SimGripper, "grip", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        measured(rig)
+    assert rig.truth().force_n == 0.0
+
+
+def test_a_person_who_stops_is_asked_nothing_more():
+    asked = []
+
+    def ask(prompt):
+        asked.append(prompt)
+        if prompt.startswith("put"):
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        measured(egg(), PersonLoads(ask))
+    assert len(asked) == 2
+
+
+@pytest.mark.parametrize(
+    ("most_n", "expected"),
+    [
+        (12.0, LOADS_N),
+        (5.0, LOADS_N),
+        (4.0, (0.5, 1.0, 2.0, 4.0)),
+        (2.0, (0.5, 1.0, 2.0)),
+        (1.5, (0.5, 1.0, 1.5)),
+        (1.2, (0.3, 0.6, 1.2)),
+        (0.4, (0.1, 0.2, 0.4)),
+    ],
+)
+def test_default_loads_end_at_a_limit_and_still_make_a_calibration(most_n, expected):
+    assert default_loads(most_n) == pytest.approx(expected)
+    check_load_values(default_loads(most_n))
+
+
+def test_loads_are_refused_on_either_side_of_the_limits():
+    check_within((0.1, 1, 1.5), 0.1, 1.5, "the limits")
+    with pytest.raises(UsageError, match=r"0\.1 to 1\.5 N \(at 0\.05\); give loads within, like"):
+        check_within((0.05, 1, 1.5), 0.1, 1.5, "the limits")
+    with pytest.raises(
+        UsageError, match=r"0\.8 to 1\.5 N \(at 2\); give loads within; nothing mov"
+    ):
+        check_within((0.8, 1, 2), 0.8, 1.5, "the limits")
 
 
 def unfinished(folder, **changes):

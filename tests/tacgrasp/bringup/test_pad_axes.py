@@ -6,6 +6,7 @@ import pytest
 from cltp import TouchError
 from primitives import LimitError
 from primitives.limits import Limits
+from sim.grasp.devices import SimGripper
 from sim.grasp.rig import build
 from tacgrasp.base.errors import UsageError
 from tacgrasp.bringup.pad_axes import STEP_MM, as_yaml, axes_from_shifts, axes_named, find_pad_axes
@@ -107,6 +108,19 @@ def test_a_sensor_that_fails_leaves_the_gripper_open(monkeypatch):
     with pytest.raises(TouchError, match="unplugged"):
         find_pad_axes(rig, limits(), force_n=1.0, clear_mm=4.0, report=lambda _: None)
     assert not rig.gripper.state().closed
+
+
+def test_ctrl_c_in_a_grip_leaves_the_gripper_open(monkeypatch):
+    rig, grip = build("cherry_tomato", 3, start_offset_mm=(0, 0)), SimGripper.grip
+
+    def interrupted(self, force_n):
+        grip(self, force_n)
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(SimGripper, "grip", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        find_pad_axes(rig, limits(), force_n=1.0, clear_mm=4.0, report=lambda _: None)
+    assert rig.truth().force_n == 0.0
 
 
 def test_named_axes_become_the_lines_of_a_rigs_file():

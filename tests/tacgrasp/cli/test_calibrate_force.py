@@ -1,10 +1,12 @@
 """``tacgrasp calibrate force`` on the simulated rig, and what it refuses and keeps."""
 
 import pytest
+import yaml
 
 from cltp.sensing.force_calibration import load_force_calibration
 from sim.grasp.devices import SimGripper
 from tacgrasp.__main__ import main
+from tests.paths import ROOT
 
 QUICK = ["--loads", "0.5", "1", "2"]
 
@@ -28,6 +30,43 @@ def test_the_simulated_rig_is_calibrated_without_a_person(out, capsys, by):
     assert [load.load_n for load in made.loads] == pytest.approx([0.5, 1, 2])
     assert made.factor == pytest.approx(1.0, abs=0.25)
     assert [path.name for path in out.parent.iterdir()] == [out.name]
+
+
+def test_the_world_that_puts_the_loads_says_so_where_a_gripper_is_asked_for(out, capsys):
+    assert calibrate(out, *QUICK, "--by", "gripper") == 0
+    line = "put by the sim world, which knows their true force; --by gripper is for real devices"
+    assert f"loads     {line}" in capsys.readouterr().out
+
+
+def limited_rig(folder, **gripper):
+    rig = yaml.safe_load((ROOT / "tacgrasp" / "rigs" / "sim.yaml").read_text())
+    rig["gripper"] |= gripper
+    path = folder / "limited.yaml"
+    path.write_text(yaml.safe_dump(rig))
+    return path
+
+
+def test_the_default_loads_end_at_the_rigs_limit(out, tmp_path, capsys):
+    rig = limited_rig(tmp_path, max_force_n=1.5)
+    assert calibrate(out, "--rig", str(rig)) == 0
+    printed = capsys.readouterr().out
+    assert "loads     0.5 1 1.5 N, up to gripper.max_force_n 1.5 N" in printed
+    made = load_force_calibration(out)
+    assert [load.load_n for load in made.loads] == pytest.approx([0.5, 1, 1.5])
+
+
+def test_loads_beyond_the_rigs_limits_are_refused_before_anything_moves(
+    out, tmp_path, capsys, monkeypatch
+):
+    grips = []
+    monkeypatch.setattr(SimGripper, "grip", lambda self, force_n: grips.append(force_n))
+    rig = limited_rig(tmp_path, max_force_n=1.5)
+    assert calibrate(out, "--rig", str(rig), "--loads", "1", "2", "4") == 2
+    error = capsys.readouterr().err
+    for part in ("max_force_n of", "to 1.5 N (at 2 4)", "like --loads 0.5 1 1.5; nothing moved"):
+        assert part in error
+    assert not grips
+    assert not out.exists()
 
 
 def test_an_existing_file_is_kept_unless_it_may_be_replaced(out, capsys):

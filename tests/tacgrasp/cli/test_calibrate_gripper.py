@@ -105,6 +105,50 @@ def test_the_rigs_own_file_and_files_of_another_kind_are_kept(rig, capsys, tmp_p
     assert (path.read_text(), other.read_text()) == (before, "mine")
 
 
+def test_an_existing_calibration_is_kept_unless_it_may_be_replaced(rig, csv, capsys):
+    path = rig()
+    made = path.parent / "gripper_calibration.yaml"
+    made.write_text("mine")
+    argv = ["calibrate", "gripper", "--rig", str(path), "--readings", str(csv)]
+    assert main(argv) == 2
+    assert "exists and is kept; give --overwrite" in capsys.readouterr().err
+    assert made.read_text() == "mine"
+    assert main([*argv, "--overwrite"]) == 0
+    assert load_calibration(made).source == "readings.csv"
+
+
+@pytest.mark.parametrize("is_mute", [False, True])
+def test_ctrl_c_under_a_current_opens_the_fingers_or_says_that_they_may_hold(
+    is_mute, rig, monkeypatch, capsys
+):
+    pytest.importorskip("dynamixel_sdk")
+    emulator = DynamixelEmulator(SpringLoad(width_m=0.10))
+    asked = []
+
+    def stop(prompt):
+        asked.append(prompt)
+        if len(asked) == 2:
+            if is_mute:
+                emulator.inject("silence")
+            raise KeyboardInterrupt
+        return ""
+
+    try:
+        path = rig(emulator.serial_port)
+        monkeypatch.setattr("builtins.input", stop)
+        code = main(["calibrate", "gripper", "--rig", str(path), "--steps", "3"])
+        error = capsys.readouterr().err
+        if is_mute:
+            assert code == 3
+            assert "the gripper could not be opened" in error
+            assert "open with tacgrasp jog (key o)" in error
+        else:
+            assert (code, error) == (130, "tacgrasp: stopped by the operator\n")
+            assert emulator.facts()["width_m"] == pytest.approx(0.11, abs=1e-3)
+    finally:
+        emulator.close()
+
+
 @pytest.mark.parametrize(
     ("words", "message"),
     [

@@ -3,6 +3,7 @@
 import pytest
 
 from cltp.tactile.shear.slip_calibration import load_slip_calibration
+from sim.grasp.devices import SimGripper
 from tacgrasp.base.errors import UsageError
 from tacgrasp.cli.calibrate_slip import CalibrateSlipFlags, run
 
@@ -23,6 +24,23 @@ def test_an_existing_file_stays(tmp_path):
     with pytest.raises(UsageError, match="is kept"):
         run(CalibrateSlipFlags(out=out))
     assert out.read_text() == "mine"
+
+
+@pytest.mark.parametrize("num_grips", [1, 3])
+def test_ctrl_c_in_a_hold_leaves_the_gripper_open(num_grips, tmp_path, monkeypatch):
+    grip, opens, grips = SimGripper.grip, [], []
+
+    def interrupted(self, force_n):
+        grips.append(grip(self, force_n))
+        if len(grips) == num_grips:
+            raise KeyboardInterrupt
+
+    open_by = SimGripper.open_by
+    monkeypatch.setattr(SimGripper, "grip", interrupted)
+    monkeypatch.setattr(SimGripper, "open_by", lambda *a: opens.append(open_by(*a)))
+    with pytest.raises(KeyboardInterrupt):
+        run(CalibrateSlipFlags(sensor="taxels", hold_s=1.0, out=tmp_path / "slip.json"))
+    assert [state.closed for state in opens] == [False]
 
 
 @pytest.mark.parametrize(

@@ -393,3 +393,17 @@ def test_a_bug_is_exit_code_3_with_its_traceback(capsys: Capture, monkeypatch: P
     monkeypatch.setattr("tacgrasp.cli.describe.parse", lambda *_, **__: 1 / 0)
     assert main(["describe", "x.ply"]) == 3
     assert "ZeroDivisionError" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("argv", "expected"),
+    [(["pad-axes", "--right", "+y", "--palm=-z"], "1"), (["gelsight-mini", "--frames"], None)],
+)
+def test_a_calibration_with_a_robot_keeps_to_one_thread(
+    argv: list[str], expected: str | None, monkeypatch: Patch
+) -> None:
+    for variable in THREADS:
+        monkeypatch.setenv(variable, "9")  # so that what it was is there again afterwards
+        monkeypatch.delenv(variable)
+    main(["calibrate", *argv])
+    assert {os.environ.get(variable) for variable in THREADS} == {expected}

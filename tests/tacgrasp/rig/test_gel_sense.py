@@ -7,11 +7,12 @@ import numpy as np
 import pytest
 
 from cltp.errors import TouchError
+from cltp.tactile.contact import matched_filter
 from cltp.tactile.force_scale import UNCALIBRATED, ForceScale
 from cltp.tactile.measure import contact_state
 from sim.gel.layer import gel_of
 from sim.grasp.rig import build
-from tacgrasp.rig.gel_sense import FELT_SPREAD, SPREADS, GelSense
+from tacgrasp.rig.gel_sense import FELT_SPREAD, SPREADS, GelSense, prepare
 
 
 class Scaled:
@@ -103,3 +104,14 @@ def test_a_pad_that_is_pressed_all_over_is_no_reading_instead_of_no_contact():
     for read in (sense.read, sense.read_contact):
         with pytest.raises(TouchError, match=r"the whole pad is raised by 0\.50 mm"):
             read()
+
+
+def test_what_is_prepared_is_not_computed_again_under_a_watchdog():
+    sensor = build("egg", 5).sensor
+    matched_filter._modes.cache_clear()
+    prepare(sensor)
+    prepared = matched_filter._modes.cache_info().misses
+    sense = GelSense(sensor)
+    sense.take_reference()
+    sense.in_contact(sense.read())
+    assert matched_filter._modes.cache_info().misses == prepared == 3

@@ -6,13 +6,17 @@ The devices are emulated, but the rig's file says ``hardware`` and names their a
 import copy
 import io
 import json
+import os
 import re
+import signal
+import threading
 
 import numpy as np
 import pytest
 import yaml
 
 from cltp.sensing.force_calibration import load_force_calibration, save_force_calibration
+from primitives import RobotError
 from sim.emulators.process.spawn import EmulatorProcess
 from sim.grasp.force_calibration import drawn_force_calibration
 from tacgrasp.__main__ import main
@@ -352,6 +356,79 @@ def test_the_calibrated_gripper_calibrates_the_sensor_of_a_new_unit(tmp_path, ca
         "the calibrated gripper",
     )
     assert [load.load_n for load in made.loads] == pytest.approx([0.5, 1, 2], abs=0.02)
+
+
+FORCE = ["calibrate", "force", "--by", "gripper", "--overwrite"]
+
+
+@pytest.mark.parametrize(
+    ("most_n", "loads", "message"),
+    [
+        (1.5, ["1", "2", "4"], "max_force_n of mine.yaml, 0.1 to 1.5 N (at 2 4)"),
+        (40, ["1", "2", "30"], "calibration and max_current_ma allow, 0 to 12.86 N (at 30)"),
+    ],
+)
+def test_no_load_beyond_a_limit_is_pressed(
+    most_n, loads, message, rig, emulators, tmp_path, capsys, monkeypatch
+):
+    monkeypatch.chdir(tmp_path)
+    before = positions(emulators)
+    rig["gripper"]["max_force_n"] = most_n
+    (tmp_path / "mine.yaml").write_text(yaml.safe_dump(rig))
+    assert main([*FORCE, "--rig", "mine.yaml", "--loads", *loads]) == 2
+    error = capsys.readouterr().err
+    assert message in error
+    assert "like --loads 0.5 1" in error
+    assert positions(emulators) == pytest.approx(before, abs=1e-9)
+
+
+@pytest.mark.parametrize("argv", [FORCE, ["calibrate", "pad-axes"]])
+def test_the_contact_test_is_prepared_before_the_gripper_and_its_watchdog(
+    argv, rig, tmp_path, monkeypatch
+):
+    order = []
+
+    def connect(*_, **__):
+        order.append("gripper")
+        raise RobotError("not today")
+
+    path = tmp_path / "mine.yaml"
+    path.write_text(yaml.safe_dump(rig))
+    for module in ("gel_sense", "hardware"):
+        monkeypatch.setattr(f"tacgrasp.rig.{module}.prepare", lambda _: order.append("prepare"))
+    monkeypatch.setattr("tacgrasp.drivers.dynamixel.gripper.connect_gripper", connect)
+    assert main([*argv, "--rig", str(path)]) == 3
+    assert order == ["prepare", "gripper"]
+
+
+STOPPED = {
+    "force, Ctrl-C": (FORCE, signal.SIGINT, 130),
+    "force, SIGTERM": (FORCE, signal.SIGTERM, 143),
+    "pad-axes, SIGTERM": (["calibrate", "pad-axes"], signal.SIGTERM, 143),
+}
+
+
+@pytest.mark.parametrize("name", STOPPED)
+def test_a_calibration_that_is_stopped_under_force_leaves_nothing_pressed(name, tmp_path, capsys):
+    argv, number, code = STOPPED[name]
+    with EmulatorProcess("rig", "--seed", "2", "--object", "egg", "--centred") as running:
+        path, ended = tmp_path / "mine.yaml", threading.Event()
+        path.write_text(yaml.safe_dump(rig_of(running, tmp_path)))
+
+        def stop_when_it_presses():
+            while not ended.wait(0.02):
+                if running.control.facts("world")["force_n"] > 0.1:
+                    os.kill(os.getpid(), number)
+                    return
+
+        watcher = threading.Thread(target=stop_when_it_presses)
+        watcher.start()
+        try:
+            assert main([*argv, "--rig", str(path)]) == code, capsys.readouterr().err
+        finally:
+            ended.set()
+            watcher.join()
+        assert running.control.facts("world")["force_n"] == 0.0
 
 
 @pytest.mark.slow
