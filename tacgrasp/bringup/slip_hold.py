@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from cltp.errors import TouchError
 from cltp.tactile.shear.field import ShearField
+from tacgrasp.drivers.opening import check_open
 from tacgrasp.rig.protocols import Rig, ShearSensor
 
 UNLOAD_STEPS, LEAST_FACTOR = 10, 0.4
@@ -29,8 +30,9 @@ def held_frames(
 
     Raises:
         TouchError: The sensor measures no shear, or can't be read.
-        RobotError: The gripper failed.
+        RobotError: The gripper is not open, or failed.
     """
+    check_open(rig.gripper)
     rig.sensor.take_reference()
     rig.gripper.grip(force_n)
     try:
