@@ -322,10 +322,17 @@ def test_a_tripped_watchdog_is_noticed(servos):
     assert eventually(lambda: "bus watchdog of servo 1 has tripped" in gripper.fault)
 
 
+def test_a_computer_that_asks_too_late_is_not_taken_for_a_silent_gripper(gripper):
+    gripper._fingers.poller.close()  # as if its thread had no time
+    assert eventually(lambda: "last whole reply is" in gripper.check_alive())
+    assert "this computer was late to ask for one" in gripper.check_alive()
+
+
 def test_silence_is_told_at_once_and_is_a_fault_only_when_patience_ends(servos, gripper):
     assert eventually(lambda: gripper.check_alive() == "")
     servos.emulator.inject("silence")
     assert eventually(lambda: "last whole reply is" in gripper.check_alive(), 0.9)
+    assert "this computer" not in gripper.check_alive()
     assert gripper.fault == ""
     assert eventually(lambda: "does not answer" in gripper.fault)
     with pytest.raises(RobotError, match="does not answer"):
