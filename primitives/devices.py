@@ -47,7 +47,7 @@ class GripperState:
     Attributes:
         width_m: Opening between the fingers [m].
         force_n: Last commanded force, 0 when open [N]; the true force is not measured.
-        closed: Whether the last command was ``grip``.
+        closed: Whether the last command was ``grip``, be it of an earlier run whose grip is kept.
         clamped: Change of the last command by a limit; '' without one.
 
     Raises:

@@ -282,6 +282,11 @@ class Executor:
         self._contract = contract
 
     @property
+    def open_width_m(self) -> float:
+        """Opening before the first grasp [m]; 0 before it, and without touch."""
+        return self._open_width_m
+
+    @property
     def travel_mm(self) -> float:
         """Measured path of the TCP over the episode so far [mm]."""
         return self._travel_mm

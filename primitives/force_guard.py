@@ -77,7 +77,7 @@ class GuardedGripper:
         return (
             f"{self.most_n:.3g} N commanded may press {self._limit_n:.3g} N, the contract's limit, "
             f"as far as is known: {self._limit_n / self.most_n:.2g} times as much; a smaller "
-            "gripper.max_force_gain lets more through, if the gripper keeps to it"
+            "gripper.max_force_gain in the rig's file lets more through, if the gripper keeps to it"
         )
 
     def keep_to(self, limit_n: float, needed_n: float) -> None:

@@ -127,6 +127,7 @@ def run_episode(
             end=end,
             last_step=step,
             verification=verification,
+            open_width_m=executor.open_width_m,
         )
         outcome = close(ending)
     return outcome

@@ -149,7 +149,7 @@ def check_run_policy(config: RunConfig) -> None:
 
     Raises:
         UsageError: As for ``check_policy``; or the policy can't grasp in a run; or the folder does
-            not exist, which a policy without weights would not notice.
+            not exist, or a server is named, which a policy without them would not notice.
     """
     name, weights = config.policy, config.weights_folder
     if name == "fixed_force":  # a run's closing stops at the first touch
@@ -158,10 +158,32 @@ def check_run_policy(config: RunConfig) -> None:
             "the first touch; compare with it by `tacgrasp bench strawberry --policies fixed_force`"
         )
     check_policy(name, config)
+    check_remote_options(name, url=config.policy_url, key_file=config.policy_key_file)
     if weights is not None and not weights.is_dir():
         raise UsageError(
             f"--weights {weights} is not a folder; leave it out, since --policy {name} needs none"
         )
+
+
+def check_remote_options(name: str, *, url: str | None, key_file: Path | None) -> None:
+    """Check that a server is named only for a policy that may ask one: ``remote``, or a plugin's.
+
+    Args:
+        name: Name of the policy.
+        url: Address of the server, if one was given.
+        key_file: File with its key, if one was given.
+
+    Raises:
+        UsageError: The policy asks no server.
+    """
+    if name == "remote" or name not in POLICIES:
+        return
+    for flag, value in (("--policy-url", url), ("--policy-key-file", key_file)):
+        if value is not None:
+            raise UsageError(
+                f"{flag} {value} is for --policy remote; leave it out, since --policy {name} asks "
+                "no server"
+            )
 
 
 def make_policy(name: str, config: RunConfig) -> Policy:

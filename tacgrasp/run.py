@@ -58,7 +58,8 @@ def run_recorded(
         EpisodeError: The record can't be created; nothing has moved.
         LimitError: The contract is refused, or the rig starts outside its workspace; nothing has
             moved.
-        RobotError: The gel does not match the sensor's background; nothing has moved.
+        RobotError: The gripper is not open, or the gel does not match the sensor's background;
+            nothing has moved.
         TouchError: The slip calibration can't be used; nothing has moved.
     """
     if not config.dry_run:

@@ -19,6 +19,7 @@ from cltp.tactile.measure import contact_state
 from primitives.execution import PadAxes, rotate
 from primitives.limits import Limits, check_workspace, clamp_force
 from tacgrasp.base.errors import UsageError
+from tacgrasp.drivers.opening import check_open
 from tacgrasp.rig.gel_sense import GelSense
 from tacgrasp.rig.protocols import Rig
 from tacgrasp.rig.release import let_go, opened_afterwards
@@ -61,7 +62,7 @@ def find_pad_axes(
         UsageError: ``clear_mm`` is not a positive number; nothing has moved.
         TouchError: No contact, a contact cut off by the pad's edge, or a shift that fits no pad.
         LimitError: A step would leave the workspace; nothing has moved.
-        RobotError: A device failed.
+        RobotError: The gripper is not open, and nothing has moved; or a device failed.
     """
     if not (math.isfinite(clear_mm) and clear_mm > 0):
         raise UsageError(f"--clear-mm must be a number above 0, got {clear_mm}")
@@ -74,6 +75,7 @@ def find_pad_axes(
         check_workspace(target, limits)
     force = clamp_force(force_n, limits).value
     speed_m_s = min(SPEED_M_S, limits.max_speed_m_s)
+    check_open(rig.gripper)
     centre, shifts = _contact_position(rig, force, clear_mm), []
     report(f"at the start ({centre[0]:+.1f}, {centre[1]:+.1f}) mm")
     for step, target in zip(steps, targets, strict=True):

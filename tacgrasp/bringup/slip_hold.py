@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from cltp.errors import TouchError
 from cltp.tactile.shear.field import ShearField
+from tacgrasp.drivers.opening import check_open
 from tacgrasp.rig.protocols import Rig, ShearSensor
 from tacgrasp.rig.release import let_go, opened_afterwards
 
@@ -33,8 +34,9 @@ def held_frames(
 
     Raises:
         TouchError: The sensor measures no shear, or can't be read.
-        RobotError: The gripper failed; the message says if it may still hold.
+        RobotError: The gripper is not open, or failed; the message says if it may still hold.
     """
+    check_open(rig.gripper)
     rig.sensor.take_reference()
     with opened_afterwards(lambda: let_go(rig.gripper, CLEAR_M)):
         rig.gripper.grip(force_n)

@@ -80,10 +80,11 @@ def main(argv: Sequence[str]) -> int:
 def _decide(episode: Episode, flags: ReplayFlags, console: Console) -> int:
     from tacgrasp.console import working
     from tacgrasp.playback.replay import config_of, contract_in, differences
-    from tacgrasp.policy_factory import make_policy
+    from tacgrasp.policy_factory import check_remote_options, make_policy
 
     name = flags.policy or episode.header.policy
     config = config_of(episode, flags.episode)
+    check_remote_options(name, url=flags.policy_url, key_file=flags.policy_key_file)
     given = {name: getattr(flags, name) for name in ("weights", "policy_url", "policy_key_file")}
     config = config.model_copy(update={n: each for n, each in given.items() if each is not None})
     with working(f"loading the policy {name}"):

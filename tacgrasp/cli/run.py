@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,6 +13,7 @@ import tyro
 
 from primitives.contract import Contract
 from tacgrasp.base.errors import UsageError
+from tacgrasp.base.settings import SettingsBase
 from tacgrasp.cli.flags import parse, parse_some, writable
 from tacgrasp.config.errors import flag_of
 from tacgrasp.config.hardware import HardwareConfig
@@ -190,9 +191,20 @@ def _print_config(config: RunConfig, sources: Sources, contract: Contract) -> No
     width = max(map(len, values))
     console = make_console()
     for path, value in values.items():
-        text = "none" if value is None else str(value)
-        if isinstance(value, tuple):
-            text = f"[{', '.join(f'{v:g}' for v in value)}]"
-        console.print(f"{path:{width}}  {text}  [{sources.get(path, 'default')}]")
+        console.print(f"{path:{width}}  {_text(value)}  [{sources.get(path, 'default')}]")
     for line in [*contract_lines(contract), *band_lines(contract)]:
         console.print(line)
+
+
+def _text(value: object) -> str:
+    """A value as a rig's file writes it; sections that stand in a list within braces."""
+    if value is None:
+        return "none"
+    if isinstance(value, SettingsBase):
+        return _text(dict(value))
+    if isinstance(value, Mapping):
+        return f"{{{', '.join(f'{name}: {_text(part)}' for name, part in value.items())}}}"
+    if isinstance(value, (list, tuple)):
+        parts = (f"{v:g}" if isinstance(v, float) else _text(v) for v in value)
+        return f"[{', '.join(parts)}]"
+    return str(value)

@@ -26,8 +26,11 @@ LIMITS: Mapping[str, tuple[_Comparison, str]] = {
     "arm.max_speed_m_s": _AT_MOST,
     "gripper.min_force_n": _AT_LEAST,
     "gripper.max_force_n": _AT_MOST,
+    "gripper.first_force_n": _AT_MOST,
+    "gripper.max_force_gain": _AT_LEAST,  # a smaller one lets larger commands through
 }
-"""Every limit, with the allowed side of the file's value."""
+"""Every limit, with the allowed side of the file's value. Where the file has none
+(``first_force_n`` of a simulated world), nothing is bounded; a number in it can't become None."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,8 +54,11 @@ class HardLimits:
             section, field = path.split(".")
             hard = getattr(getattr(self, section), field)
             value = getattr(getattr(config, section), field)
-            pairs = zip(_numbers(value), _numbers(hard), strict=True)
-            if not all(is_within(a, b) for a, b in pairs):
+            if hard is None:
+                continue
+            if value is None or not all(
+                is_within(a, b) for a, b in zip(_numbers(value), _numbers(hard), strict=True)
+            ):
                 raise UsageError(
                     f"{source_of(path)}: {path} must be {side} the rig's hard limit {_text(hard)}, "
                     f"got {_text(value)}; limits can be narrowed here, and widened only in the "
@@ -64,6 +70,8 @@ def _numbers(value: float | tuple[float, ...]) -> tuple[float, ...]:
     return value if isinstance(value, tuple) else (value,)
 
 
-def _text(value: float | tuple[float, ...]) -> str:
+def _text(value: float | tuple[float, ...] | None) -> str:
+    if value is None:
+        return "none"
     numbers = ", ".join(f"{number:g}" for number in _numbers(value))
     return f"[{numbers}]" if isinstance(value, tuple) else numbers

@@ -27,6 +27,7 @@ from tacgrasp.drivers.check import Finding, finding
 from tacgrasp.drivers.dynamixel.settings import DynamixelSettings
 from tacgrasp.drivers.force_scale import force_finding
 from tacgrasp.drivers.gelsight.settings import GelSightSettings
+from tacgrasp.drivers.opening import check_open
 from tacgrasp.drivers.plugin import PluginSensorSettings
 from tacgrasp.drivers.recorded.settings import RecordedSettings
 from tacgrasp.drivers.scheduling import ADVICE, granted, lateness_s, request_nice
@@ -99,6 +100,7 @@ class HardwareRig:
     guard: GuardedArm | None = None
 
     def expect_untouched(self) -> None:
+        check_open(self.gripper)
         try:
             self.sensor.expect_untouched()
         except TouchError as error:
@@ -121,6 +123,8 @@ class HardwareRig:
 def connect(config: RunConfig, hardware: HardwareConfig, first_force_n: float) -> HardwareRig:
     """Connect sensor, gripper and arm, then move the arm to its start, except in a dry run.
 
+    An arm goes to its start pose with an open gripper alone.
+
     Raises:
         RobotError: A device can't be reached or is in a wrong state, and nothing has moved; or the
             move to the start pose failed.
@@ -142,6 +146,8 @@ def connect(config: RunConfig, hardware: HardwareConfig, first_force_n: float) -
             prepare(sensor)
         gripper = connect_gripper_of(hardware.gripper)
         stack.callback(gripper.gripper.disconnect)
+        if hardware.start.at == "pose" and not config.dry_run:
+            check_open(gripper.gripper)
         _check_forces(config, gripper.max_force_n)
         arm = connect_arm_of(hardware.arm)
         stack.callback(arm.arm.disconnect)

@@ -164,10 +164,11 @@ class Rig(Protocol):
         """Least change of the commanded force that the gripper makes [N]; 0 for any."""
 
     def expect_untouched(self) -> None:
-        """Check before the first grasp that nothing touches the gel; the gripper is open.
+        """Check before the first grasp that the gripper is open and nothing touches the gel.
 
         Raises:
-            RobotError: The gel is touched or dirty, or its background is stale; nothing has moved.
+            RobotError: The gripper is not open, the gel is touched or dirty, or its background is
+                stale; nothing has moved.
         """
 
     def commands(self) -> tuple[Command, ...]:

@@ -38,6 +38,7 @@ class Ending:
         end: Reason and message.
         last_step: The last step, recorded or not; None before the first decision.
         verification: Result of the lift; None when none was tried.
+        open_width_m: Opening before the first grasp [m].
     """
 
     rig: Rig
@@ -47,6 +48,7 @@ class Ending:
     end: EndOfEpisode
     last_step: Step | None
     verification: Verification | None
+    open_width_m: float = 0.0
 
 
 def close(ending: Ending) -> Outcome:
@@ -63,7 +65,7 @@ def close(ending: Ending) -> Outcome:
         try:
             truth = None if is_dry else read_truth(rig, ending.config.verify)  # before it opens
         finally:
-            safe_state, is_safe = _make_safe(rig, ending.config, end)
+            safe_state, is_safe = _make_safe(ending)
         problems = [] if is_safe else [safe_state]
         refusals = _refusals(lambda: steps.record_cut_short(ending.last_step, end.message))
         if end.reason is not EndReason.FAULT:  # a fault may be the recorder's own error already
@@ -111,8 +113,13 @@ def read_truth(rig: Rig, verify: VerifyConfig) -> TruthFacts | None:
     return facts | {"offset_x_mm": x_mm, "offset_y_mm": y_mm}
 
 
-def _make_safe(rig: Rig, config: RunConfig, end: EndOfEpisode) -> tuple[str, bool]:
-    """Stop, then hold or release; return the state of the gripper, and whether it is as desired."""
+def _make_safe(ending: Ending) -> tuple[str, bool]:
+    """Stop, then hold or release; return the state of the gripper, and whether it is as desired.
+
+    Fingers that closed on nothing, at the start pose, open as wide as they were before the first
+    grasp, so that the next run finds them around the object. All others open by ``clear_mm``.
+    """
+    rig, config, end = ending.rig, ending.config, ending.end
     if config.dry_run:
         return "nothing was sent", True
     action = config.on_success if end.reason is EndReason.SUCCESS else config.on_failure
@@ -121,9 +128,13 @@ def _make_safe(rig: Rig, config: RunConfig, end: EndOfEpisode) -> tuple[str, boo
     if action == "hold":
         return "the gripper keeps its grip", True
     try:
-        if not _despite_interrupts(rig.gripper.state).closed:
+        state = _despite_interrupts(rig.gripper.state)
+        if not state.closed:
             return "the gripper is open", True
-        _despite_interrupts(lambda: rig.gripper.open_by(config.primitives.clear_mm / 1000))
+        clear_m = config.primitives.clear_mm / 1000
+        if end.reason is EndReason.CONTACT_LOST:
+            clear_m = max(clear_m, ending.open_width_m - state.width_m)
+        _despite_interrupts(lambda: rig.gripper.open_by(clear_m))
     except RobotError as error:
         reason = "" if str(error) in end.message else f": {error}"
         return f"the gripper could not be opened{reason}; {FREE_BY_HAND}", False

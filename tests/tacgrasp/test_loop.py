@@ -129,6 +129,17 @@ def test_without_contact_no_text_adds_force_moves_or_declares_success() -> None:
         assert rig.gripper.current.force_n <= rig.first_force_n
 
 
+def test_fingers_that_closed_on_nothing_end_as_wide_as_they_began() -> None:
+    rig = missing(*range(9))
+    began_m = rig.gripper.current.width_m
+    outcome, _, _ = play(Scripted(GOOD), rig=rig)
+    assert (outcome.reason, outcome.safe_state) == (
+        EndReason.CONTACT_LOST,
+        "the gripper has released",
+    )
+    assert rig.gripper.current.width_m == pytest.approx(began_m)
+
+
 def test_contact_in_between_lets_the_runtime_reset_again() -> None:
     outcome, _, recorder = play(Scripted(DOWN, GOOD), rig=missing(0, 2))
     reset, down = Primitive.RESET, Primitive.MOVE_DOWN

@@ -16,6 +16,7 @@ from collections.abc import Callable, Mapping, Sequence
 from primitives.errors import RobotError
 from tacgrasp.drivers.dynamixel import registers as reg
 from tacgrasp.drivers.dynamixel.bus import Bus
+from tacgrasp.drivers.dynamixel.kept_grip import mean_width_m, read_kept_ma, widths_m
 from tacgrasp.drivers.dynamixel.poller import PollSample, ServoPoller
 from tacgrasp.drivers.dynamixel.servo_state import ServoCommand, ServoSample
 from tacgrasp.drivers.dynamixel.settings import DynamixelSettings, ServoSettings
@@ -42,12 +43,18 @@ class ServoFingers:
         bus: Their bus, used by the poller's thread alone.
         poller: The thread that polls the servos.
         sent: The last command on the wire, in the servos' words; empty before the first.
+        kept_ma: Current of a grip that an earlier run left [mA]; None without one.
     """
 
     def __init__(
-        self, bus: Bus, settings: DynamixelSettings, commanded: Mapping[int, ServoCommand]
+        self,
+        bus: Bus,
+        settings: DynamixelSettings,
+        commanded: Mapping[int, ServoCommand],
+        *,
+        kept_ma: float | None = None,
     ) -> None:
-        self.settings, self.bus = settings, bus
+        self.settings, self.bus, self.kept_ma = settings, bus, kept_ma
         self.poller = ServoPoller(bus, settings, commanded)
         self.unit_ma = reg.MODELS[settings.model].unit_ma
         self.adapter = adapter_serial(bus.path)
@@ -234,7 +241,7 @@ class ServoFingers:
         return self._width_m(positions)
 
     def _check_skew(self, positions: Sequence[int]) -> None:
-        widths = [1000 * width for width in self._widths_m(positions)]
+        widths = [1000 * width for width in widths_m(self.settings, positions)]
         if max(widths) - min(widths) > self.settings.max_skew_mm:
             texts = " and ".join(f"{width:.1f}" for width in widths)
             raise RobotError(
@@ -243,16 +250,7 @@ class ServoFingers:
             )
 
     def _width_m(self, positions: Sequence[int]) -> float:
-        widths = self._widths_m(positions)
-        return max(0.0, sum(widths) / len(widths))
-
-    def _widths_m(self, positions: Sequence[int]) -> list[float]:
-        """Opening according to each servo [m]."""
-        low, high = self.settings.closed_width_mm, self.settings.open_width_mm
-        return [
-            1e-3 * (low + (ticks - s.closed_ticks) / (s.open_ticks - s.closed_ticks) * (high - low))
-            for s, ticks in zip(self.settings.servos, positions, strict=True)
-        ]
+        return mean_width_m(self.settings, positions)
 
     def _ticks(self, servo: ServoSettings, width_m: float) -> int:
         low, high = self.settings.closed_width_mm, self.settings.open_width_mm
@@ -291,11 +289,12 @@ def connect_fingers(settings: DynamixelSettings) -> ServoFingers:
             first = failed[0]
             more = f" (and {len(failed) - 1} more; see tacgrasp doctor)" if failed[1:] else ""
             raise RobotError(f"the gripper's {first.name}: {first.detail}; {first.advice}{more}")
+        kept_ma = read_kept_ma(bus, settings)
         commanded = {servo.id: _hold(bus, settings, servo) for servo in settings.servos}
     except BaseException:
         bus.close()
         raise
-    return ServoFingers(bus, settings, commanded)
+    return ServoFingers(bus, settings, commanded, kept_ma=kept_ma)
 
 
 def _hold(bus: Bus, settings: DynamixelSettings, servo: ServoSettings) -> ServoCommand:

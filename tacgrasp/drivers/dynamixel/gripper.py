@@ -11,6 +11,7 @@ import datetime
 import logging
 import math
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -28,9 +29,11 @@ from tacgrasp.drivers.dynamixel.calibration import (
 )
 from tacgrasp.drivers.dynamixel.errors import BusFaultCounts
 from tacgrasp.drivers.dynamixel.fingers import ServoFingers, connect_fingers
+from tacgrasp.drivers.dynamixel.kept_grip import read_kept_ma, read_width_m
 from tacgrasp.drivers.dynamixel.servo_state import STATE_LENGTH
 from tacgrasp.drivers.dynamixel.settings import DynamixelSettings
 from tacgrasp.drivers.dynamixel.startup_checks import startup_findings
+from tacgrasp.drivers.opening import opening_problem
 from tacgrasp.drivers.serial_ports import adapter_serial
 
 LATENCY_READS = 200
@@ -43,13 +46,17 @@ _log = logging.getLogger(__name__)
 class DynamixelGripper:
     """One or two servos under force control; made by ``connect_gripper``.
 
+    A grip that an earlier run left is its state at first: closed, with the force of that grip.
+
     See ``primitives.devices.Gripper`` for the contract of each method. Every command raises
     ``RobotError`` after a fault, ``LimitError`` beyond ``max_force_n`` (nothing is sent then).
     """
 
     def __init__(self, fingers: ServoFingers, calibration: GripperCalibration) -> None:
         self._fingers, self._calibration = fingers, calibration
-        self._force_n, self._closed = 0.0, False
+        kept_ma = fingers.kept_ma
+        self._force_n = 0.0 if kept_ma is None else calibration.force_n(kept_ma)
+        self._closed = kept_ma is not None
 
     @property
     def max_force_n(self) -> float:
@@ -182,6 +189,8 @@ def check(
         adapter = adapter_serial(bus.path)
         servo_findings = startup_findings(bus, settings)
         findings += servo_findings
+        if all(finding.ok for finding in servo_findings if finding.name.endswith(" model")):
+            findings.append(_opening(bus, settings, folder))
         if servo_findings[0].ok:
             findings.append(_latency(bus, settings))
     except RobotError as error:
@@ -197,6 +206,19 @@ def check(
 
 
 _finding = partial(finding, "gripper")
+
+
+def _opening(bus: Bus, settings: DynamixelSettings, folder: Path) -> Finding:
+    """Whether the fingers are open, as a run needs them."""
+    width_m, kept_ma, force_n = read_width_m(bus, settings), read_kept_ma(bus, settings), 0.0
+    detail = f"{1000 * width_m:.1f} mm of {settings.open_width_mm:g} mm"
+    if kept_ma is not None:
+        detail += f", gripping with {kept_ma:.0f} mA"
+        with suppress(RobotError):  # a finding of its own
+            force_n = load_calibration(folder / settings.calibration).force_n(kept_ma)
+    state = GripperState(width_m=width_m, force_n=force_n, closed=kept_ma is not None)
+    problem = opening_problem(state)
+    return _finding("opening", not problem, detail, f"a run is refused: {problem}")
 
 
 def _latency(bus: Bus, settings: DynamixelSettings) -> Finding:

@@ -74,7 +74,7 @@ class ServoPoller:
         self.fault = ""
         self._sample: PollSample | None = None
         self.num_polls = 0
-        self._closed = False
+        self._closed = self._is_busy = False  # busy: a job or a poll is under way
         self._thread = threading.Thread(target=self._run, name="gripper", daemon=True)
         self._thread.start()
 
@@ -94,7 +94,11 @@ class ServoPoller:
         age_s = time.monotonic() - (self._began_s if sample is None else sample.at_s)
         if age_s <= self._settings.stale_s:
             return ""
-        return f"the gripper's last whole reply is {1e3 * age_s:.0f} ms old"
+        message = f"the gripper's last whole reply is {1e3 * age_s:.0f} ms old"
+        if not self._is_busy:  # nobody asks it, though a poll is due
+            message += "; this computer was late to ask for one: end other work, and see "
+            message += "tacgrasp doctor"
+        return message
 
     def read_now(self) -> PollSample:
         """Poll at once, with every check of a poll.
@@ -180,13 +184,16 @@ class ServoPoller:
                 job = self._jobs.get(timeout=max(0.0, due_s - time.monotonic()))
                 if job is None:
                     return
+                self._is_busy = True
                 job()
             except queue.Empty:
                 pass
             if time.monotonic() >= due_s:
                 due_s = max(due_s + period_s, time.monotonic())
                 if not self.fault:
+                    self._is_busy = True
                     self._poll()
+            self._is_busy = False
 
     def _poll(self) -> None:
         try:

@@ -88,6 +88,12 @@ class RtdeSample:
         """Magnitude of the force on the tool [N]."""
         return math.hypot(*self.force[:3])
 
+    @property
+    def has_ended(self) -> bool:
+        """Whether the program has ended or paused by itself, by its watchdog or at the pendant."""
+        is_well = not safety_text(self.safety_bits) and self.robot_mode == RUNNING
+        return is_well and self.runtime_state != PLAYING
+
     def problem(self) -> str:
         """Reason to stop; empty for none.
 
@@ -97,7 +103,7 @@ class RtdeSample:
             return f"the controller reports: {text}"
         if self.robot_mode != RUNNING:
             return f"the arm is not running (robot mode {self.robot_mode}, expected {RUNNING})"
-        if self.runtime_state != PLAYING:
+        if self.has_ended:
             return (
                 f"the program on the controller does not run (runtime state {self.runtime_state}, "
                 f"expected {PLAYING}): stopped or paused at the pendant, or by its watchdog"

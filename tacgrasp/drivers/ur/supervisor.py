@@ -16,7 +16,7 @@ from typing import NoReturn
 
 from primitives.errors import RobotError
 from tacgrasp.drivers.ur.motion_limits import distance_m, expected_duration_s, refusal
-from tacgrasp.drivers.ur.rtde_link import DROPPED, REST_M_S, UrLink
+from tacgrasp.drivers.ur.rtde_link import DROPPED, REST_M_S, RtdeSample, UrLink
 from tacgrasp.drivers.ur.settings import UrSettings
 from tacgrasp.drivers.ur.shared_state import (
     COMMAND_BYTES,
@@ -44,6 +44,14 @@ LIBRARY_STOP_S = 0.06
 
 REASON_WAIT_S = 0.02
 """Longest wait for data of the controller that explain a refused signal [s]."""
+
+PAUSE_PART = 0.5
+"""Part of the watchdog's time from which a pause of this computer is named as a possible cause of a
+program that has ended. Our choice: the signal takes its way, and the controller its turn."""
+
+PAUSE_REMEMBERED_S = 0.5
+"""Time for which a pause is remembered [s]. The first signal after it still goes out, and the data
+that tell of the ended program come later. Our choice: several rounds and the data's own delay."""
 
 MOTION_POLL_S = 0.001
 """Interval between looks at the data until a commanded motion starts [s]."""
@@ -88,6 +96,7 @@ class Supervisor:
         self._unread = b""
         self._sample = link.sample()
         self._data_s = self._kicked_s = time.monotonic()
+        self._pause_s, self._paused_s = 0.0, self._kicked_s  # the longest of late, and its end
         self._active: ActiveCommand | None = None
 
     def run(self) -> NoReturn:
@@ -119,7 +128,7 @@ class Supervisor:
         if stale_s > UNREAD_S or (stale_s > limit_s and not self._link.has_unread()):
             raise RobotError(f"no new data from the controller for {1e3 * stale_s:.0f} ms")
         if problem := self._sample.problem():
-            raise RobotError(f"{problem}{self._own_pause(now_s)}")
+            raise RobotError(f"{problem}{self._own_pause(self._sample, now_s)}")
         force_n, limit_n = self._sample.force_n, self._settings.max_contact_force_n
         if self._active is not None and force_n > limit_n:
             raise RobotError(
@@ -131,26 +140,37 @@ class Supervisor:
             self._track(self._active, now_s)
         self.publish(now_s)
 
-    def _own_pause(self, now_s: float) -> str:
-        """Remark on a pause of this computer that was long enough for the controller's watchdog."""
-        pause_ms, limit_ms = 1e3 * (now_s - self._kicked_s), 1e3 / self._settings.watchdog_hz
-        if pause_ms < limit_ms:
+    def _own_pause(self, sample: RtdeSample, now_s: float) -> str:
+        """Remark on a pause of this computer that may have ended the program by its watchdog."""
+        self._note_pause(now_s)
+        pause_ms, limit_ms = 1e3 * self._pause_s, 1e3 / self._settings.watchdog_hz
+        if not sample.has_ended or pause_ms < PAUSE_PART * limit_ms:
             return ""
         return (
             f"; this computer paused for {pause_ms:.0f} ms, and the watchdog allows "
             f"{limit_ms:.0f}: end other work, and see tacgrasp doctor"
         )
 
+    def _note_pause(self, now_s: float) -> None:
+        """Remember the time since the last signal, if it is the longest of late."""
+        pause_s = now_s - self._kicked_s
+        if pause_s >= self._pause_s or now_s - self._paused_s > PAUSE_REMEMBERED_S:
+            self._pause_s, self._paused_s = pause_s, now_s
+
     def _kick(self) -> None:
         try:
             self._link.kick()
-            self._kicked_s = time.monotonic()
+            now_s = time.monotonic()
+            self._note_pause(now_s)
+            self._kicked_s = now_s
         except RobotError:
             # The library has the fault before its data: wait a moment for their explanation.
             until_s = time.monotonic() + REASON_WAIT_S
             while time.monotonic() < until_s and self._link.connected:
-                if problem := self._link.sample().problem():
-                    raise RobotError(problem) from None
+                sample = self._link.sample()
+                if problem := sample.problem():
+                    remark = self._own_pause(sample, time.monotonic())
+                    raise RobotError(f"{problem}{remark}") from None
                 time.sleep(0.002)
             if not self._link.connected:
                 raise RobotError(DROPPED) from None

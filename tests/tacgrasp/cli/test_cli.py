@@ -15,6 +15,7 @@ from tacgrasp.__main__ import COMMANDS, main, usage
 from tacgrasp.base import package_check
 from tacgrasp.base.errors import UsageError
 from tacgrasp.base.worker_pool import THREADS
+from tacgrasp.config.layers import names
 from tacgrasp.console import COMPLETED
 from tacgrasp.episodes.listing import table
 from tests.paths import ROOT
@@ -347,6 +348,36 @@ def test_print_config_says_where_each_value_came_from(capsys: Capture) -> None:
     assert lines["arm.max_step_mm"].split(maxsplit=1)[1] == "4.0  [flag --arm.max-step-mm]"
     assert lines["goal.force_n"].endswith("[tasks/egg.yaml]")
     assert lines["loop.max_asks"].endswith("[default]")
+
+
+RIGS = (*names("rig"), str(ROOT / "docs/example_rig.yaml"))
+
+
+@pytest.mark.parametrize("rig", RIGS)
+@pytest.mark.parametrize("task", names("task"))
+def test_print_config_prints_every_value_of_every_rig_and_task(
+    task: str, rig: str, capsys: Capture
+) -> None:
+    assert main(["run", "--task", task, "--rig", rig, "--print-config"]) == 0
+    lines = {line.split()[0]: line for line in capsys.readouterr().out.splitlines()}
+    if rig != "sim":
+        servos = lines["hardware.gripper.servos"].split(maxsplit=1)[1]
+        source = rig if rig.endswith(".yaml") else f"rigs/{rig}.yaml"
+        assert servos == f"[{{id: 1, open_ticks: 2496, closed_ticks: 1600}}]  [{source}]"
+
+
+@pytest.mark.parametrize(
+    "options", [["--policy-url", "ws://127.0.0.1:1"], ["--policy-key-file", "nokey"]]
+)
+def test_a_server_is_named_for_a_remote_policy_alone(
+    options: list[str], episode: Path, tmp_path: Path, capsys: Capture
+) -> None:
+    expected = f"{' '.join(options)} is for --policy remote; leave it out, since --policy rules"
+    argv = ["run", "--policy", "rules", "--record", str(tmp_path / "new"), *options]
+    assert expected in complaint(argv, capsys)
+    assert not (tmp_path / "new").exists()
+    argv = ["replay", "--decide", "--policy", "rules", str(episode), *options]
+    assert expected in complaint(argv, capsys)
 
 
 def test_a_height_map_is_described_in_words_and_numbers(tmp_path: Path, capsys: Capture) -> None:

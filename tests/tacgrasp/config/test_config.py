@@ -9,7 +9,9 @@ import pytest
 
 from tacgrasp.base.errors import UsageError
 from tacgrasp.cli.run import configure
+from tacgrasp.config.hard_limits import LIMITS
 from tacgrasp.config.layers import load, names
+from tacgrasp.config.schema import ArmConfig, GripperConfig
 from tests.paths import ROOT
 
 MINIMAL = """
@@ -237,6 +239,51 @@ def test_a_limit_that_the_rigs_file_leaves_to_its_default_can_not_be_widened_eit
     )
     message = usage_error(["--rig", str(rig), "--arm.max-travel-mm", "130"])
     assert "at most the rig's hard limit 120" in message
+
+
+HARDWARE = ("--rig", str(ROOT / "docs/example_rig.yaml"))
+
+
+@pytest.mark.parametrize(
+    ("argv", "expected"),
+    [
+        (["--gripper.first-force-n", "0.6"], "first_force_n must be at most .* 0.5, got 0.6"),
+        (["--gripper.first-force-n", "None"], "needs gripper.first_force_n"),
+        (["--gripper.max-force-gain", "1.9"], "max_force_gain must be at least .* 2, got 1.9"),
+    ],
+)
+def test_a_first_touch_can_be_made_lighter_by_flags_and_never_harder(
+    argv: list[str], expected: str
+) -> None:
+    message = usage_error([*HARDWARE, *argv])
+    assert re.search(expected, message), message
+    config, _, _ = configure(
+        [*HARDWARE, "--gripper.first-force-n", "0.4", "--gripper.max-force-gain", "3"]
+    )
+    assert (config.gripper.first_force_n, config.gripper.max_force_gain) == (0.4, 3.0)
+
+
+def test_a_first_force_of_a_rigs_file_can_not_be_left_out_either(tmp_path: Path) -> None:
+    rig = tmp_path / "rig.yaml"
+    shipped = (ROOT / "tacgrasp/rigs/emulated.yaml").read_text()
+    rig.write_text(shipped.replace("max_force_n: 12", "max_force_n: 12\n  first_force_n: 0.5"))
+    message = usage_error(["--rig", str(rig), "--gripper.first-force-n", "None"])
+    assert "first_force_n must be at most the rig's hard limit 0.5, got none" in message
+
+
+def test_the_first_force_of_a_simulated_world_may_be_chosen() -> None:
+    config, _, _ = configure(["--gripper.first-force-n", "2"])
+    assert config.gripper.first_force_n == 2.0
+
+
+def test_every_limit_of_force_in_a_rigs_file_is_a_hard_one() -> None:
+    """docs/example_rig.yaml says that flags may narrow all of them."""
+    assert {path for path in LIMITS if path.startswith("gripper.")} == {
+        f"gripper.{name}" for name in GripperConfig.model_fields
+    }
+    assert {path for path in LIMITS if path.startswith("arm.")} == {
+        f"arm.{name}" for name in ArmConfig.model_fields
+    }
 
 
 def test_an_emulated_array_has_the_sensor_of_the_run_unless_its_file_names_one(

@@ -21,6 +21,7 @@ from sim.emulators.process.spawn import EmulatorProcess
 from sim.grasp.force_calibration import drawn_force_calibration
 from tacgrasp.__main__ import main
 from tacgrasp.drivers.dynamixel.calibration import save_calibration
+from tacgrasp.drivers.dynamixel.gripper import connect_gripper
 from tacgrasp.drivers.dynamixel.settings import DynamixelSettings
 from tacgrasp.episodes import read_episode
 from tacgrasp.rig.emulated import emulated_calibration
@@ -245,6 +246,41 @@ def test_jogging_begins_where_the_arm_stands_however_far_its_start_is(
     assert after[2] - before[2] == pytest.approx(0.001, abs=2e-5)
     monkeypatch.setattr("sys.stdin", io.StringIO("f"))
     assert main(["jog", "--rig", str(path)]) == 0
+
+
+@pytest.mark.parametrize("start", ["pose", "here"])
+def test_a_run_is_refused_while_the_gripper_still_grips_and_jog_opens_it(
+    start, rig, emulators, tmp_path, capsys, monkeypatch
+):
+    if start == "here":
+        rig["hardware"]["start"] = {"at": "here"}
+    else:  # from where the arm stands it would have to move
+        rig["hardware"]["start"]["position_m"] = [0.45, -0.10, 0.205]
+    settings = DynamixelSettings.model_validate(rig["hardware"]["gripper"])
+    before_run = connect_gripper(settings, folder=tmp_path)
+    before_run.grip(0.3)
+    before_run.disconnect()
+    before = positions(emulators)
+    try:
+        code, message = complaint(rig, tmp_path, capsys)
+        assert code == 3
+        assert "the gripper is not open: it still grips, with 0.30 N commanded" in message
+        assert "tacgrasp jog (key o); nothing moved" in message
+        assert positions(emulators) == pytest.approx(before, abs=1e-9)
+        path = str(tmp_path / "mine.yaml")
+        assert main(["doctor", "--rig", path]) == 1
+        (line,) = [x for x in capsys.readouterr().out.splitlines() if "  opening " in x]
+        assert "NOT OK" in line and "a run is refused" in line
+        monkeypatch.setattr("sys.stdin", io.StringIO("o"))
+        assert main(["jog", "--rig", path]) == 0
+        assert "open at " in capsys.readouterr().out
+        assert main(["doctor", "--rig", path]) in (0, 1)  # a busy machine may be late
+        (line,) = [x for x in capsys.readouterr().out.splitlines() if "  opening " in x]
+        assert "NOT OK" not in line
+    finally:
+        after_run = connect_gripper(settings, folder=tmp_path)
+        after_run.open_by(1.0)
+        after_run.disconnect()
 
 
 def test_a_port_that_is_another_devices_is_refused(rig, emulators, tmp_path, capsys):

@@ -1,12 +1,13 @@
 """The gel is held to its picture of the untouched gel before the first grasp, and only then."""
 
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
 from cltp import TouchError
 from primitives import RobotError
-from primitives.devices import Pose
+from primitives.devices import GripperState, Pose
 from tacgrasp.config.layers import load
 from tacgrasp.config.schema import RunConfig
 from tacgrasp.config.terms import contract_of
@@ -17,11 +18,14 @@ from tacgrasp.rig.hardware import HardwareRig, RealClock
 from tacgrasp.run import run_recorded
 from tests.fakes.loop_fakes import SENSOR, FakeRig, touch
 
+OPEN = GripperState(width_m=0.05, force_n=0.0, closed=False)
 
-def rig_with(sensor, start_pose: Pose) -> HardwareRig:
-    """A rig of drivers without arm and gripper."""
+
+def rig_with(sensor, start_pose: Pose, state: GripperState = OPEN) -> HardwareRig:
+    """A rig of drivers without an arm, and with a gripper that only has a state."""
+    gripper = SimpleNamespace(state=lambda: state)
     return HardwareRig(
-        arm=None, gripper=None, sensor=sensor, clock=RealClock(), start_pose=start_pose,
+        arm=None, gripper=gripper, sensor=sensor, clock=RealClock(), start_pose=start_pose,
         command_log=CommandLog(lambda: 0.0), first_force_n=1.0, fault_counts=str,
     )  # fmt: skip
 
@@ -41,6 +45,32 @@ def test_a_stale_background_ends_a_run_before_anything_moves_and_no_episode_is_b
     fake.expect_untouched = rig.expect_untouched
     settings = config(tmp_path)
     with pytest.raises(RobotError, match=r"stale background.*open them: tacgrasp jog"):
+        run_recorded(fake, make_policy("rules", settings), settings, contract_of(settings))
+    assert fake.calls == []
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize(
+    ("state", "expected"),
+    [
+        (
+            GripperState(width_m=0.03, force_n=0.42, closed=True),
+            r"still grips, with 0\.42 N commanded and 30\.0 mm.*Support.*tacgrasp jog \(key o\)",
+        ),
+        (
+            GripperState(width_m=0.002, force_n=0.0, closed=False),
+            r"2\.0 mm between the fingers, at least 5 mm are needed; open it.*tacgrasp jog",
+        ),
+    ],
+)
+def test_a_gripper_that_is_not_open_ends_a_run_before_anything_moves(
+    tmp_path: Path, state: GripperState, expected: str
+) -> None:
+    fake = FakeRig()
+    sensor = RecordedSensor("x", [touch], SENSOR, repeat=False)
+    fake.expect_untouched = rig_with(sensor, fake.start_pose, state).expect_untouched
+    settings = config(tmp_path)
+    with pytest.raises(RobotError, match=expected):
         run_recorded(fake, make_policy("rules", settings), settings, contract_of(settings))
     assert fake.calls == []
     assert not list(tmp_path.iterdir())

@@ -13,6 +13,7 @@ from tacgrasp.drivers.dynamixel import registers as reg
 from tacgrasp.drivers.dynamixel.calibration import load_calibration
 from tacgrasp.drivers.dynamixel.fingers import connect_fingers
 from tacgrasp.drivers.dynamixel.measure_calibration import calibrate_gripper, steps_ma
+from tacgrasp.drivers.opening import check_open
 from tests.fakes.emulated_servos import EmulatedServos, eventually
 
 pytest.importorskip("dynamixel_sdk")
@@ -149,6 +150,58 @@ def test_a_grip_that_an_earlier_run_has_kept_is_not_touched(servos, load):
     assert second.open_by(0.005).width_m == pytest.approx(0.065, abs=5e-4)
 
 
+@pytest.mark.parametrize("num_servos", [1, 2])
+def test_a_grip_that_an_earlier_run_has_kept_is_the_state_of_the_next_one(
+    tmp_path, load, num_servos
+):
+    servos = EmulatedServos(tmp_path, load, num_servos=num_servos)
+    try:
+        first = servos.gripper()
+        assert not first.state().closed
+        held = first.grip(1.0)
+        first.disconnect()
+        second = servos.gripper()
+        kept = second.state()
+        assert kept.closed
+        assert kept.force_n == pytest.approx(held.force_n, abs=0.0144)  # one unit of current
+        assert kept.width_m == pytest.approx(held.width_m, abs=5e-4)
+        with pytest.raises(RobotError, match=r"not open: it still grips, with (0.99|1.00) N"):
+            check_open(second)
+        second.open_by(0.002)
+        second.disconnect()
+        third = servos.gripper()
+        assert (third.state().closed, third.state().force_n) == (False, 0.0)
+        check_open(third)
+    finally:
+        servos.close()
+
+
+def test_a_grip_on_nothing_is_kept_too_and_fingers_that_open_by_little_are_not_open(servos, load):
+    load.width_m = 0.0
+    first = servos.gripper()
+    first.grip(0.5)
+    first.disconnect()
+    second = servos.gripper()
+    assert second.state().closed
+    second.open_by(0.002)
+    with pytest.raises(RobotError, match=r"2\.\d mm between the fingers, at least 5 mm.*\(key o\)"):
+        check_open(second)
+    second.open_by(0.004)
+    check_open(second)
+
+
+def test_closed_servos_without_torque_grip_nothing_and_are_not_open(servos, load):
+    load.width_m = 0.0
+    first = servos.gripper()
+    first.grip(0.5)
+    first.disconnect()
+    servos.poke(reg.TORQUE, 0)
+    second = servos.gripper()
+    assert (second.state().closed, second.state().force_n) == (False, 0.0)
+    with pytest.raises(RobotError, match="between the fingers, at least 5 mm"):
+        check_open(second)
+
+
 def test_a_watchdog_that_an_earlier_run_let_trip_is_cleared(servos, load):
     servos.poke(reg.WATCHDOG, reg.WATCHDOG_TRIPPED)
     servos.gripper().grip(1.0)
@@ -269,10 +322,17 @@ def test_a_tripped_watchdog_is_noticed(servos):
     assert eventually(lambda: "bus watchdog of servo 1 has tripped" in gripper.fault)
 
 
+def test_a_computer_that_asks_too_late_is_not_taken_for_a_silent_gripper(gripper):
+    gripper._fingers.poller.close()  # as if its thread had no time
+    assert eventually(lambda: "last whole reply is" in gripper.check_alive())
+    assert "this computer was late to ask for one" in gripper.check_alive()
+
+
 def test_silence_is_told_at_once_and_is_a_fault_only_when_patience_ends(servos, gripper):
     assert eventually(lambda: gripper.check_alive() == "")
     servos.emulator.inject("silence")
     assert eventually(lambda: "last whole reply is" in gripper.check_alive(), 0.9)
+    assert "this computer" not in gripper.check_alive()
     assert gripper.fault == ""
     assert eventually(lambda: "does not answer" in gripper.fault)
     with pytest.raises(RobotError, match="does not answer"):
@@ -351,7 +411,9 @@ def test_a_program_that_dies_leaves_the_grip_and_the_next_one_goes_on(servos, lo
     dead._fingers.bus.close()
     assert eventually(lambda: servos.emulator.facts()["bus_watchdog"] == reg.WATCHDOG_TRIPPED)
     assert servos.emulator.facts()["force_n"] == pytest.approx(1.0, abs=0.02)
-    assert servos.gripper().open_by(0.005).width_m == pytest.approx(0.065, abs=5e-4)
+    following = servos.gripper()
+    assert following.state().closed
+    assert following.open_by(0.005).width_m == pytest.approx(0.065, abs=5e-4)
     assert eventually(lambda: load.releases == 1)
 
 

@@ -143,6 +143,20 @@ def test_doctor_says_all_that_is_wrong_at_once(servos):
     ]
 
 
+def test_doctor_finds_a_gripper_that_still_grips_and_leaves_it_so(servos):
+    gripper = servos.gripper()
+    gripper.grip(1.0)
+    gripper.disconnect()
+    (opening,) = [f for f in check(servos.settings, folder=servos.folder) if f.name == "opening"]
+    assert not opening.ok
+    assert "79.6 mm of 110 mm, gripping with 81 mA" in opening.detail
+    assert (
+        "a run is refused: the gripper is not open: it still grips, with 0.99 N" in opening.advice
+    )
+    assert "tacgrasp jog (key o)" in opening.advice
+    assert servos.emulator.facts()["force_n"] == pytest.approx(1.0, abs=0.02)
+
+
 @pytest.mark.parametrize(("first_force_n", "ok"), [(0.02, True), (0.014, False)])
 def test_doctor_says_where_the_least_command_is_above_the_first_force(servos, first_force_n, ok):
     *_, last = check(servos.settings, folder=servos.folder, first_force_n=first_force_n)

@@ -42,6 +42,7 @@ from tacgrasp.drivers.ur.shared_state import (
     WorkerPhase,
     WorkerState,
 )
+from tacgrasp.drivers.ur.supervisor import PAUSE_REMEMBERED_S, Supervisor
 from tacgrasp.drivers.ur.worker import patient
 from tests.fakes.emulated_arm import emulated_arm
 
@@ -620,6 +621,68 @@ def test_moves_and_stops_are_asynchronous_and_of_the_link_is_connected_alone_is_
     link.kick()  # says that all is well
     assert not link.connected
     assert not {"reconnect", "reuploadScript", "speedL"} & {name for name, *_ in calls}
+
+
+class EndingLink:
+    """A controller whose program ends; the data that tell of it come a round after the signal."""
+
+    connected = True
+
+    def __init__(self, *, refuses: bool) -> None:
+        self.refuses, self.runtime_state, self.safety_bits, self.stamp_s = refuses, 2, 1, 0.0
+
+    def sample(self) -> ur_link.RtdeSample:
+        self.stamp_s += 0.008
+        return ur_link.RtdeSample(
+            stamp_s=self.stamp_s, pose=(*START_M, *DOWN_RAD), speed=(0.0,) * 6, force=(0.0,) * 6,
+            robot_mode=ur_link.RUNNING, runtime_state=self.runtime_state,
+            safety_bits=self.safety_bits, speed_fraction=1.0,
+        )  # fmt: skip
+
+    def kick(self) -> None:
+        if self.refuses and self.runtime_state != ur_link.PLAYING:
+            raise RobotError("the library said False")
+
+
+class NoBlock:
+    def write(self, state: WorkerState) -> None:
+        pass
+
+
+@pytest.mark.parametrize(
+    ("pause_ms", "safety_bits", "is_named"), [(30, 1, True), (10, 1, False), (30, 1 << 2, False)]
+)
+@pytest.mark.parametrize("is_refused", [False, True])
+def test_a_pause_of_this_computer_is_named_where_the_program_has_ended(
+    pause_ms, safety_bits, is_named, is_refused
+):
+    link = EndingLink(refuses=is_refused)
+    supervisor = Supervisor(emulated_arm("h"), link, NoBlock(), commands_fd=-1)
+    supervisor._round(time.monotonic())
+    supervisor._kicked_s -= pause_ms / 1e3
+    if not is_refused:
+        supervisor._round(time.monotonic())  # the first signal after it goes out
+        link.runtime_state, link.safety_bits = 1, safety_bits
+        with pytest.raises(RobotError) as caught:
+            supervisor._round(time.monotonic())
+    else:
+        link.runtime_state, link.safety_bits = 1, safety_bits
+        with pytest.raises(RobotError) as caught:
+            supervisor._kick()
+    assert ("this computer paused for" in str(caught.value)) == is_named
+    assert ("by its watchdog" in str(caught.value)) == (safety_bits == 1)
+
+
+def test_a_pause_of_long_ago_is_not_named():
+    link = EndingLink(refuses=False)
+    supervisor = Supervisor(emulated_arm("h"), link, NoBlock(), commands_fd=-1)
+    supervisor._kicked_s -= 0.1
+    supervisor._round(time.monotonic())
+    supervisor._paused_s -= PAUSE_REMEMBERED_S
+    link.runtime_state = 1
+    with pytest.raises(RobotError) as caught:
+        supervisor._round(time.monotonic())
+    assert "this computer" not in str(caught.value)
 
 
 @pytest.mark.parametrize(

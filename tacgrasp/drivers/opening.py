@@ -1,0 +1,45 @@
+"""Whether a gripper is open, as it must be before a sensor takes its gel as untouched.
+
+A gripper may still hold what an earlier run gripped. What presses on the gel then would be taken
+for the untouched gel, and only the rest of a force would be felt. A gripper that holds is not
+opened here, since what it holds would fall.
+"""
+
+from __future__ import annotations
+
+from primitives.devices import Gripper, GripperState
+from primitives.errors import RobotError
+
+LEAST_OPEN_M = 0.005
+"""Least opening at the start of a run [m]. Our choice: more than ``primitives.clear_mm`` (2 mm), by
+which fingers open that have closed on nothing; so narrow, they would go down onto the object. How
+much wider they stand is the bench's own affair."""
+
+OPEN_IT = "open it until it is wide enough: tacgrasp jog (key o)"
+
+
+def opening_problem(state: GripperState) -> str:
+    """Why a gripper is not open; empty if it is."""
+    width_mm = 1000 * state.width_m
+    if state.closed:
+        return (
+            f"the gripper is not open: it still grips, with {state.force_n:.2f} N commanded and "
+            f"{width_mm:.1f} mm between the fingers; what presses on the gel would be taken for "
+            f"the untouched gel. Support what it holds, then {OPEN_IT}"
+        )
+    if state.width_m < LEAST_OPEN_M:
+        return (
+            f"the gripper is not open: {width_mm:.1f} mm between the fingers, at least "
+            f"{1000 * LEAST_OPEN_M:g} mm are needed; {OPEN_IT}"
+        )
+    return ""
+
+
+def check_open(gripper: Gripper) -> None:
+    """Refuse a gripper that is not open.
+
+    Raises:
+        RobotError: It grips, or its fingers are almost closed; or it has failed.
+    """
+    if problem := opening_problem(gripper.state()):
+        raise RobotError(f"{problem}; nothing moved")
