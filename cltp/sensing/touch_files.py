@@ -48,18 +48,26 @@ def read_cloud(
     Args:
         path: File; its suffix gives the format.
         sensor: The sensor that the numbers belong to.
-        background: Frame of the same unit with an untouched gel; a frame can't be read without.
+        background: Frame of the same unit with an untouched gel; a frame can't be read without. For
+            frames only.
         calibration: Calibration of that unit; None is the shipped one. For frames only.
 
     Raises:
         TouchError: Missing, empty, truncated or foreign file; not numbers; numbers that can't come
-            from this sensor; or a frame without a background.
+            from this sensor; a frame without a background; or no frame, but with background or
+            calibration.
     """
     if path.suffix.lower() in FRAME_SUFFIXES:
         heights = _frame_heights(path, sensor, background, calibration)
         with path_in_errors(path):
             return cloud_from_heights(heights, sensor)
     array = _read_array(path)
+    for flag, given in (("--background", background), ("--calibration", calibration)):
+        if given is not None:
+            raise TouchError(
+                f"{flag} {given} is for a camera's frame ({' '.join(FRAME_SUFFIXES)}), and {path} "
+                "is a cloud or height map; leave it out"
+            )
     with path_in_errors(path):
         return _cloud_of(array, sensor)
 
@@ -74,13 +82,14 @@ def read_heights(
     """Read heights: a height map as it is, a frame's, or the surface of a cloud.
 
     A cloud becomes a map of 75 rows by linear interpolation between its points; outside their hull
-    the height is that of the nearest point. The arguments are those of ``read_cloud``.
+    the height is that of the nearest point. The arguments are those of ``read_cloud``; background
+    and calibration may be given with any file, since a folder may hold frames and height maps.
 
     Returns:
         Shape (H, W), row 0 = top [mm].
 
     Raises:
-        TouchError: As ``read_cloud``.
+        TouchError: As ``read_cloud``, but for a background or calibration without a frame.
     """
     if path.suffix.lower() in FRAME_SUFFIXES:
         return _frame_heights(path, sensor, background, calibration)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -70,4 +69,4 @@ def write_figures(path: Path | None, report: Mapping[str, Any]) -> None:
         UsageError: The file can't be written.
     """
     if path is not None:
-        write_result(path, json.dumps(report, indent=2) + "\n")
+        write_result(path, report)

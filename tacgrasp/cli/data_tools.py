@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -84,7 +83,7 @@ def stats(flags: StatsFlags) -> None:
     figures = count(flags.folder)
     show(figures, make_console())
     if path is not None:
-        write_result(path, json.dumps(as_json(figures), indent=2) + "\n")
+        write_result(path, as_json(figures))
 
 
 @dataclass(frozen=True)

@@ -72,8 +72,8 @@ class ExportFlags:
     Attributes:
         episodes: The .mcap files; several for lerobot alone.
         to: lerobot (a data set of LeRobot v3.0), parquet (one table), rrd (rerun; extra 'view').
-        out: File to write, for lerobot a folder; by default the first episode's name with .parquet,
-            .rrd or -lerobot.
+        out: New file to write, for lerobot a folder; by default the first episode's name with
+            .parquet, .rrd or -lerobot.
         language: Whether lerobot's column language_events is written, which LeRobot knows from 0.6
             on; D_t also stands in observation.text.
     """
@@ -88,6 +88,11 @@ class ExportFlags:
             raise UsageError("name an episode; `tacgrasp episodes ls` lists them")
         if len(self.episodes) > 1 and self.to != "lerobot":
             raise UsageError(f"--to {self.to} takes one episode, got {len(self.episodes)}")
+        if not self.language and self.to != "lerobot":
+            raise UsageError(
+                f"--no-language belongs to --to lerobot; leave it out, since --to {self.to} has no "
+                "column language_events"
+            )
 
 
 def main(argv: Sequence[str]) -> int:
@@ -150,6 +155,10 @@ def _export(flags: ExportFlags) -> None:
             write_lerobot(episodes, out, language=flags.language)
         else:
             check_ending(out, f".{flags.to}")
+            if out.exists():
+                raise EpisodeError(
+                    f"{out} exists; exports are never overwritten, give another --out"
+                )
             episode = read_episode(first)
             write = _writer(flags.to)
             try:

@@ -25,8 +25,6 @@ def main(argv: Sequence[str]) -> int:
     request = parse(EvaluationRequest, argv, prog="tacgrasp eval")
     json_path = writable(request.json)
     contacts_in(request.data, command="tacgrasp data generate --set full")
-    import json
-
     from cltp.train.progress import Bar
     from tacgrasp.console import make_table_console
     from tacgrasp.policy_factory import default_weights
@@ -38,7 +36,7 @@ def main(argv: Sequence[str]) -> int:
         scores = evaluate(weights, request, report)
     show(scores, make_table_console())
     if json_path is not None:
-        write_result(json_path, json.dumps(scores, indent=1) + "\n")
+        write_result(json_path, scores)
     if request.card:
         write_scores(weights, scores)
     return 0

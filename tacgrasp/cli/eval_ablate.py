@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -62,7 +61,7 @@ def main(argv: Sequence[str]) -> None:
         )
     _show(results)
     if flags.json is not None:
-        write_result(flags.json, json.dumps(results, indent=1) + "\n")
+        write_result(flags.json, results)
 
 
 def _show(results: Mapping[str, Any]) -> None:

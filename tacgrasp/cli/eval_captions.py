@@ -81,10 +81,8 @@ def main(argv: Sequence[str]) -> None:
         )
     _show(results)
     if flags.json is not None:
-        import json
-
         figures = {result.method: dict(result.values) for result in results}
-        write_result(flags.json, json.dumps(figures, indent=1) + "\n")
+        write_result(flags.json, figures)
 
 
 def _show(results: Sequence[Result]) -> None:

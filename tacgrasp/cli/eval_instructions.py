@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -76,6 +75,4 @@ def main(argv: Sequence[str]) -> None:
             }
             for s in scores
         ]
-        report = {"figures": figures, "instructions": rows}
-        text = json.dumps(report, indent=1, ensure_ascii=False) + "\n"
-        write_result(flags.json, text)
+        write_result(flags.json, {"figures": figures, "instructions": rows})

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -66,7 +65,7 @@ def main(argv: Sequence[str]) -> None:
         )
     _show(found["groups"])
     if flags.json is not None:
-        write_result(flags.json, json.dumps(found, indent=1) + "\n")
+        write_result(flags.json, found)
 
 
 def _show(groups: dict[str, Any]) -> None:

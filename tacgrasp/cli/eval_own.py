@@ -71,9 +71,7 @@ def main(argv: Sequence[str]) -> None:
         rows = evaluate_own(run, report)
     _show(rows)
     if flags.json is not None:
-        import json
-
-        write_result(flags.json, json.dumps(figures(rows), indent=1) + "\n")
+        write_result(flags.json, figures(rows))
 
 
 def _show(rows: Sequence[OwnScores]) -> None:

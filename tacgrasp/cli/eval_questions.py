@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -84,14 +83,14 @@ def main(argv: Sequence[str]) -> None:
     if flags.json is not None:
         columns = {"weights": str(flags.weights or "default"), "seed": flags.seed}
         report_json = columns | results | {"answers": [_plain(each) for each in answers]}
-        text = json.dumps(report_json, indent=1, ensure_ascii=False) + "\n"
-        write_result(flags.json, text)
+        write_result(flags.json, report_json)
 
 
 def _show(results: dict[str, Any], answers: Sequence[ScoredAnswer], *, wrong: bool) -> None:
     from rich.table import Table
 
     from tacgrasp.console import make_table_console
+    from tacgrasp.training.question_evaluation import AS_FELT
 
     console = make_table_console()
     if wrong:
@@ -119,10 +118,11 @@ def _show(results: dict[str, Any], answers: Sequence[ScoredAnswer], *, wrong: bo
             f"confidence: {_percent(trust['calibration_error'])} % off the fraction right in the "
             f"mean of ten groups; right above wrong in {_percent(trust['auroc'])} % (AUROC)"
         )
+    felt = "truth as felt (every question understood, and the touch of the model), "
     console.print(
-        "trivial: no, yes, unknowable, most frequent; upper bounds: truth as felt (every question "
-        "understood, and the touch of the model), truth in words, and grammar on questions of its "
-        "own"
+        "trivial: no, yes, unknowable, most frequent; upper bounds: "
+        f"{felt if AS_FELT in results['figures'] else ''}truth in words, and grammar on questions "
+        "of its own"
     )
 
 

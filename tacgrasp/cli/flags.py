@@ -17,7 +17,7 @@ from pydantic import ValidationError
 from tyro import _errors as tyro_errors  # tyro's only structured errors; see pyproject's version
 
 from tacgrasp.base.errors import UsageError
-from tacgrasp.base.result_file import check_ending
+from tacgrasp.base.result_file import check_ending, check_replaceable
 from tacgrasp.base.settings import SettingsBase
 from tacgrasp.config.errors import explain_flag, flag_of
 from tacgrasp.config.layers import leaves
@@ -162,7 +162,8 @@ def writable(path: Path | None, *endings: str, flag: str = "--json") -> Path | N
         flag: Flag that named it, for the message.
 
     Raises:
-        UsageError: It can't be written, or is a file of another kind.
+        UsageError: It can't be written, is a file of another kind, or a file of JSON or Markdown
+            stands there that is no earlier result.
     """
     if path is None:
         return None
@@ -175,4 +176,5 @@ def writable(path: Path | None, *endings: str, flag: str = "--json") -> Path | N
             path.unlink()
     except OSError as error:
         raise UsageError(f"{flag} {path} can't be written: {error.strerror}") from None
+    check_replaceable(path, flag=flag)
     return path

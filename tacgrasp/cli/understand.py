@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -46,6 +45,5 @@ def main(argv: Sequence[str]) -> int:
     for line in contract_lines(contract):
         console.print(line)
     if flags.json is not None:
-        text = json.dumps(contract_json(contract), indent=1, ensure_ascii=False)
-        write_result(flags.json, text + "\n")
+        write_result(flags.json, contract_json(contract))
     return 2 if contract.refused else 0

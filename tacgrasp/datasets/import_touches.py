@@ -20,6 +20,7 @@ import csv
 import dataclasses
 import math
 import os
+import re
 import shutil
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -58,6 +59,9 @@ MEASURED = frozenset({*MEASURABLE, "cut", *NUMBER_COLUMNS.values()})
 SHOWN_ROWS = 20
 LARGEST_FORCE_N = 1000.0
 SHARD_CONTACTS = 256
+NUMBER = re.compile(r"[-−+.\d]|nan|inf", re.IGNORECASE)
+"""How a depth begins that is meant as a number of mm, good or not; no word begins so."""
+
 RISEN_MM = 0.3
 """Largest rise of a gel without contact [mm]. Our choice: drift, tilt and the halos of real frames
 (-0.1 mm) stay below. Beside a contact the gel rises by less than it sinks under it."""
@@ -269,7 +273,7 @@ def _labels(cells: Mapping[str, str]) -> Iterator[tuple[str, object]]:
             yield slot, _word(kind, slot, cells)
     if "area" in cells:
         yield "area", _word(Area, "area", cells)
-    if "depth" in cells and cells["depth"][0].isdigit():
+    if "depth" in cells and NUMBER.match(cells["depth"]):
         depth_mm = _number("depth", cells, 10.0)
         yield from (("depth_mm", depth_mm), ("depth", depth_word(depth_mm)))
     elif "depth" in cells:

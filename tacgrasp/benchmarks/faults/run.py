@@ -10,7 +10,7 @@ from rich.progress import Progress
 
 from sim.emulators.process.spawn import EmulatorProcess
 from tacgrasp.base.errors import UsageError
-from tacgrasp.base.result_file import write_result
+from tacgrasp.base.result_file import write_page
 from tacgrasp.benchmarks.faults import fault_free
 from tacgrasp.benchmarks.faults.cases import CASES, InjectionPhase
 from tacgrasp.benchmarks.faults.injection import FaultBench
@@ -69,5 +69,5 @@ def run(settings: FaultsSettings) -> bool:
     write_figures(settings.json, {"faults": [asdict(row) for row in rows]})
     if settings.markdown is not None:
         command = f"tacgrasp bench faults --repeats {repeats}{' --load' * settings.load}"
-        write_result(settings.markdown, markdown_of(rows, command), flag="--markdown", ending=".md")
+        write_page(settings.markdown, markdown_of(rows, command), flag="--markdown")
     return passed == len(rows)

@@ -20,6 +20,7 @@ from rich.console import Console
 
 from policies import Policy
 from tacgrasp.base.errors import UsageError
+from tacgrasp.base.result_file import WRITTEN_BY
 from tacgrasp.base.worker_pool import one_thread
 from tacgrasp.benchmarks.figures import write_figures
 from tacgrasp.benchmarks.settings import SoakSettings
@@ -146,9 +147,11 @@ def _so_far(settings: SoakSettings) -> SoakFigures:
     if path is None or not path.is_file() or path.stat().st_size == 0:
         return SoakFigures(**asked)  # type: ignore[arg-type]
     try:
-        figures = SoakFigures(**json.loads(path.read_text(encoding="utf-8")))
+        stored = json.loads(path.read_text(encoding="utf-8"))
+        stored.pop(WRITTEN_BY, None)
+        figures = SoakFigures(**stored)
         same = all(getattr(figures, name) == value for name, value in asked.items())
-    except (OSError, ValueError, TypeError):
+    except (OSError, ValueError, TypeError, AttributeError):
         same = False
     if not same:
         raise UsageError(

@@ -89,7 +89,7 @@ def write_lerobot(episodes: Sequence[Episode], folder: Path, *, language: bool =
 def _check(episodes: Sequence[Episode], steps: Sequence[Sequence[StepRecord]], folder: Path) -> int:
     """Refuse what makes no data set; returns the number of points of every cloud."""
     if folder.exists():
-        raise EpisodeError(f"{folder} exists; data sets are never overwritten, give another --out")
+        raise EpisodeError(f"{folder} exists; exports are never overwritten, give another --out")
     if not all(steps):
         raise EpisodeError("an episode has no step of the loop, so no frame; leave it out")
     sensors = {each.header.sensor.name for each in episodes}

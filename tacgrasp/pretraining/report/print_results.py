@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -63,5 +62,4 @@ def write_figures(
 ) -> None:
     """Write figures as JSON, nested as by ``report.store.nested``; nothing without a path."""
     if json_path is not None:
-        text = json.dumps({**nested(grouped(results)), **(more or {})}, indent=1)
-        write_result(json_path, text + "\n")
+        write_result(json_path, {**nested(grouped(results)), **(more or {})})

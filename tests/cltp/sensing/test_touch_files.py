@@ -118,6 +118,18 @@ def test_a_height_map_becomes_1024_points_with_row_0_at_the_top(tmp_path: Path) 
     np.testing.assert_allclose(cloud.points_mm[cloud.points_mm[:, 1] < -0.3, 2], 0.0)
 
 
+@pytest.mark.parametrize("name", ["h.npy", "c.npy"])
+@pytest.mark.parametrize("option", ["background", "calibration"])
+def test_what_a_frame_alone_needs_is_refused_with_another_file(
+    name: str, option: str, tmp_path: Path
+) -> None:
+    np.save(tmp_path / name, np.zeros((240, 320)) if name == "h.npy" else points())
+    with pytest.raises(
+        TouchError, match=rf"--{option} no\.png is for a camera's frame .* leave it"
+    ):
+        read_cloud(tmp_path / name, MINI, **{option: Path("no.png")})
+
+
 def touch_error(path: Path) -> str:
     with pytest.raises(TouchError) as caught:
         read_cloud(path, MINI)

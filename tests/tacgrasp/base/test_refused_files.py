@@ -2,6 +2,7 @@
 
 import errno
 import io
+import json
 import os
 import resource
 import signal
@@ -16,7 +17,9 @@ import pytest
 from cltp.atomic_write import replacing
 from tacgrasp.__main__ import main
 from tacgrasp.base.errors import UsageError
-from tacgrasp.base.result_file import write_result
+from tacgrasp.base.result_file import write_page, write_result
+from tacgrasp.benchmarks.faults.table import markdown_of
+from tacgrasp.cli.flags import writable
 from tests.fakes.episode_samples import end, header, record, step_record
 from tests.fakes.tiny_weights import make_data
 
@@ -156,22 +159,116 @@ def test_a_link_leads_no_report_to_a_file_of_another_kind(tmp_path: Path) -> Non
     task.write_text("mine")
     link.symlink_to(task)
     with pytest.raises(UsageError, match=r"ending in \.json"):
-        write_result(link, "{}\n")
+        write_result(link, {})
     assert task.read_text() == "mine"
 
 
-def test_a_report_takes_the_place_of_an_earlier_one(tmp_path: Path) -> None:
+def test_a_report_takes_the_place_of_an_earlier_one_or_of_an_empty_file(tmp_path: Path) -> None:
     report = tmp_path / "report.json"
-    report.write_text("before")
-    write_result(report, "{}\n")
-    assert report.read_text() == "{}\n"
+    report.touch()
+    for value in (1, 2):
+        write_result(report, {"value": value})
+        assert json.loads(report.read_text()) == {"written_by": "tacgrasp", "value": value}
+
+
+EARLIER = {
+    "figures": '{"written_by": "tacgrasp", "value": 1}',
+    "a run": '{"event": "contract"}\n{"event": "end"}\n',
+    "a run that was stopped": '{"event": "contract"}\n{"event": "st',
+    "a long benchmark before the mark": '{"value": 1, "about": {}, "results": {}}',
+}
+
+
+@pytest.mark.parametrize("content", EARLIER.values(), ids=EARLIER)
+def test_what_a_command_wrote_is_an_earlier_result(content: str, tmp_path: Path) -> None:
+    path = tmp_path / "f.json"
+    path.write_text(content)
+    assert writable(path) == path
+    assert path.read_text() == content
+    write_result(path, {})
+
+
+@pytest.mark.parametrize(
+    "content",
+    ["[]", "{}", "note", '{"written_by": "me"}', '{"about": {}}', '["written_by"]', b"\xff\xfe"],
+)
+def test_a_file_that_is_no_earlier_result_stays(content: str | bytes, tmp_path: Path) -> None:
+    path, link = tmp_path / "note.json", tmp_path / "link.json"
+    before = content if isinstance(content, bytes) else content.encode()
+    path.write_bytes(before)
+    link.symlink_to(path)
+    for each in (path, link):
+        with pytest.raises(UsageError, match=r"is no earlier result of tacgrasp, so it is not rep"):
+            writable(each)
+        with pytest.raises(UsageError, match="name another file"):
+            write_result(each, {})
+    assert path.read_bytes() == before
+
+
+def test_a_page_takes_the_place_of_an_earlier_page_alone(tmp_path: Path) -> None:
+    page, readme = tmp_path / "faults.md", tmp_path / "README.md"
+    text = markdown_of([], "tacgrasp bench faults")
+    for _ in range(2):
+        write_page(page, text, flag="--markdown")
+    assert writable(page, ".md", flag="--markdown") == page
+    readme.write_text("# Mine\n")
+    with pytest.raises(
+        UsageError, match=r"--markdown .*README\.md exists and is no earlier result"
+    ):
+        writable(readme, ".md", flag="--markdown")
+    assert readme.read_text() == "# Mine\n"
+
+
+OVER_OTHERS = {
+    "run": ["run", "--policy", "rules", "--json", "{file}"],
+    "understand": ["understand", "Hold it.", "--json", "{file}"],
+    "data stats": ["data", "stats", "{made}/data", "--json", "{file}"],
+    "bench latency": ["bench", "latency", "--ticks", "1", "--json", "{file}"],
+    "eval instructions": ["eval", "instructions", "--json", "{file}"],
+}
+
+
+@pytest.mark.parametrize("name", OVER_OTHERS)
+def test_no_command_writes_its_result_over_a_file_of_another_s(
+    name: str, folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    note = tmp_path / "note.json"
+    note.write_text('{"mine": 1}')
+    assert main([word.format(made=folder, file=note) for word in OVER_OTHERS[name]]) == 2
+    said = capsys.readouterr()
+    assert said.err.count("\n") == 1
+    assert f"--json {note} exists and is no earlier result of tacgrasp" in said.err
+    assert said.out == ""
+    assert note.read_text() == '{"mine": 1}'
+
+
+def test_a_data_set_s_own_description_is_not_replaced_by_its_figures(
+    folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    description = folder / "data" / "dataset.json"
+    before = description.read_bytes()
+    assert main(["data", "stats", str(folder / "data"), "--json", str(description)]) == 2
+    assert "is no earlier result of tacgrasp" in capsys.readouterr().err
+    assert description.read_bytes() == before
+    for _ in range(2):
+        argv = ["data", "stats", str(folder / "data"), "--json", str(tmp_path / "stats.json")]
+        assert main(argv) == 0
+
+
+@pytest.mark.parametrize("name", ["run.json", "run.jsonl"])
+def test_a_run_takes_the_place_of_an_earlier_run(name: str, tmp_path: Path) -> None:
+    path = tmp_path / name
+    argv = ["run", "--instruction", "Crush the berry.", "--policy", "rules", "--json", str(path)]
+    for _ in range(2):
+        assert main(argv) == 2  # the instruction is refused, which the file tells
+        assert json.loads(path.read_text().splitlines()[-1])["reason"] == "refused"
 
 
 def test_a_result_goes_into_a_pipe_or_terminal_as_it_is(tmp_path: Path) -> None:
-    write_result(Path(os.devnull), "{}\n")
+    write_result(Path(os.devnull), {})
     assert Path(os.devnull).is_char_device()
     with pytest.raises(UsageError, match="can't be written"):
-        write_result(tmp_path, "{}\n")
+        write_result(tmp_path, {})
 
 
 def test_a_recording_that_fills_the_disk_says_so_on_standard_error(

@@ -68,8 +68,9 @@ def test_given_labels_are_kept_and_what_is_empty_is_measured_and_marked(touches,
     assert main(["data", "verify", str(out)]) == 0
 
 
-def test_a_depth_may_be_a_number_of_mm(touches):
-    code, out = imported(touches, "file,depth\nmap.npy,0.72\n")
+@pytest.mark.parametrize("depth", ["0.72", "0.72 mm", "+.72"])
+def test_a_depth_may_be_a_number_of_mm(depth, touches):
+    code, out = imported(touches, f"file,depth\nmap.npy,{depth}\n")
     assert code == 0
     contact = ContactDataset(out).contact(0)
     assert contact.state.depth_mm == pytest.approx(0.72)
@@ -83,7 +84,11 @@ def test_a_depth_may_be_a_number_of_mm(touches):
         ("gone.npy,,,,,,,,,", "gone.npy does not exist"),
         ("map.npy,blob,,,,,,,,", "shape 'blob' is not one of sphere, "),
         ("map.npy,,,,left,,,,,", "position 'left' is not one of top-left, "),
-        ("map.npy,,,0,,,,,,", "depth must be a number above 0"),
+        ("map.npy,,,0,,,,,,", "depth must be a number above 0, up to 10; got '0'"),
+        ("map.npy,,,30,,,,,,", "depth must be a number above 0, up to 10; got '30'"),
+        ("map.npy,,,-0.3,,,,,,", "depth must be a number above 0, up to 10; got '-0.3'"),
+        ("map.npy,,,nan,,,,,,", "depth must be a number above 0, up to 10; got 'nan'"),
+        ("map.npy,,,flat,,,,,,", "depth 'flat' is not one of "),
         ("map.npy,,,,,,-2,,,", "force_n must be a number above 0"),
         ("map.npy,,,,,,nan,,,", "force_n must be a number above 0"),
         ("map.npy,,,,,,,,bench,", "split 'bench' is not one of train, "),

@@ -2,6 +2,7 @@
 
 import dataclasses
 import json
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -165,6 +166,22 @@ def test_a_pad_that_is_pressed_all_over_is_flagged_and_not_called_untouched(
     assert "unreadable: the whole pad is raised" in describe(pressed)[-1]
     assert Flag.RAISED in reader.read(pressed).flags
     assert Flag.RAISED not in reader.read(cloud()).flags
+
+
+@pytest.mark.parametrize("command", [["describe"], ["describe", "--json"], ["ask"]])
+@pytest.mark.parametrize("option", ["--background", "--calibration"])
+def test_what_a_frame_alone_needs_is_refused_with_a_height_map(
+    command: list[str], option: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "ball.npy"
+    np.save(path, bump(1.0, -2.0, 0.5))
+    question = ["How deep is it?"] if command == ["ask"] else []
+    assert main([*command, str(path), *question, option, "nofile"]) == 2
+    said = capsys.readouterr()
+    assert said.err.count("\n") == 1
+    assert f"{option} nofile is for a camera's frame" in said.err
+    assert "is a cloud or height map; leave it out" in said.err
+    assert said.out == ""
 
 
 @pytest.mark.parametrize("argv", [["describe"], ["describe", "--json"]])

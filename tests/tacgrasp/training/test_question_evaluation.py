@@ -10,6 +10,7 @@ from cltp.llm.constrained.grammar import match
 from policies.llm.spoken import SpokenContact
 from tacgrasp.__main__ import main
 from tacgrasp.base.errors import UsageError
+from tacgrasp.cli.eval_questions import _show
 from tacgrasp.lessons import understanding
 from tacgrasp.lessons.dialogue.scoring.question_file import question_row
 from tacgrasp.training import question_evaluation
@@ -135,6 +136,15 @@ def test_a_bad_file_is_one_line(tmp_path, capsys):
     printed = capsys.readouterr().err
     assert printed.count("\n") == 1
     assert "line 2" in printed
+
+
+@pytest.mark.parametrize("talker", [None, Parrot("amount force N.")], ids=["no model", "model"])
+def test_the_words_below_the_table_name_its_rows(talker, capsys):
+    results, answers = evaluated(talker)
+    _show(results, answers, wrong=False)
+    table, words = capsys.readouterr().out.split("trivial: no")
+    for name in ("truth as felt", "truth in words", "grammar"):
+        assert (name in table) == (name in " ".join(words.split())), name
 
 
 @pytest.mark.slow

@@ -164,6 +164,18 @@ def test_a_data_set_that_can_not_be_written_leaves_nothing(tmp_path: Path) -> No
     )
 
 
+@pytest.mark.parametrize("kind", ["parquet", "lerobot", "rrd"])
+def test_an_export_never_replaces_another(
+    kind: str, episode: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = tmp_path / f"mine.{kind}"
+    out.write_text("mine")
+    assert main(["episodes", "export", str(episode), "--to", kind, "--out", str(out)]) == 2
+    expected = f"{out} exists; exports are never overwritten, give another --out"
+    assert expected in capsys.readouterr().err
+    assert out.read_text() == "mine"
+
+
 @pytest.mark.parametrize(
     ("argv", "expected"),
     [
@@ -171,6 +183,8 @@ def test_a_data_set_that_can_not_be_written_leaves_nothing(tmp_path: Path) -> No
         (["no.mcap", "--to", "parquet"], "no.mcap does not exist"),
         (["a.mcap", "--to", "csv"], "must be one of lerobot, parquet, rrd"),
         (["a.mcap", "b.mcap", "--to", "parquet"], "--to parquet takes one episode, got 2"),
+        (["a.mcap", "--to", "parquet", "--no-language"], "belongs to --to lerobot; leave it out"),
+        (["a.mcap", "--to", "rrd", "--no-language"], "belongs to --to lerobot; leave it out"),
     ],
 )
 def test_wrong_use_of_export_is_one_line(
