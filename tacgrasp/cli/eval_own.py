@@ -71,7 +71,7 @@ def main(argv: Sequence[str]) -> None:
         rows = evaluate_own(run, report)
     _show(rows)
     if flags.json is not None:
-        write_result(flags.json, figures(rows))
+        write_result(flags.json, {"rows": figures(rows)})
 
 
 def _show(rows: Sequence[OwnScores]) -> None:

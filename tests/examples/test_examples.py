@@ -84,7 +84,7 @@ def test_the_shipped_weights_are_trained_on_own_contacts(here, monkeypatch, caps
     run("11_train_on_your_own.py", "--frames", str(BALLS), *few, monkeypatch=monkeypatch)
     assert "your own, held out" in capsys.readouterr().out
     assert (here / "weights" / "projector" / "manifest.json").is_file()
-    rows = json.loads((here / "own.json").read_text())
+    rows = json.loads((here / "own.json").read_text())["rows"]
     assert {row["reader"] for row in rows} == {"heads", "zero_shot", "captions"}
     own = next(row for row in rows if row["contacts"] == "own")
     assert own["count"]["shape"] >= own["count"]["depth"] > 0

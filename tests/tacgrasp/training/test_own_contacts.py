@@ -54,7 +54,7 @@ def other(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def evaluated(tmp_path: Path, *flags: object) -> list[dict[str, Any]]:
     out = tmp_path / "own.json"
     assert main(["eval", "own", *map(str, flags), "--json", str(out)]) == 0
-    rows: list[dict[str, Any]] = json.loads(out.read_text())
+    rows: list[dict[str, Any]] = json.loads(out.read_text())["rows"]
     return rows
 
 
