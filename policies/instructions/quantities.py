@@ -516,6 +516,10 @@ def _relation(left: str, right: str) -> tuple[Kind, int, int]:
 
 _THAN = re.compile(r"\b(?:more|harder|firmer|tighter|higher|over|above|exceed\w*)(?: than)?\s*$")
 """Before a factor that bounds: 'no more than twice the usual force'."""
+_AT_MOST = re.compile(
+    r"\b(?:(?:no|not|n't|never) (?:\w+ ){0,3}?(?:more|harder|firmer|tighter|higher) than|at (?:the )?most|"
+    r"up to|maximum(?: of)?|less than|below|under|not over|not above|without exceeding) (?:about )?$"
+)
 _USUAL = r"(?:the |your |its |that |what (?:you|is) |our |as )"
 _HOW = r"(?:hard|firm(?:ly)?|tight(?:ly)?|strong(?:ly)?|much|gentl[ey]|soft(?:ly)?|light(?:ly)?|forceful(?:ly)?)"
 _UP = r"(?:more|harder|firmer|tighter|stronger|higher|above|extra|over|up|heavier)"
@@ -556,6 +560,8 @@ def _factor(text: str) -> tuple[float | None, str, str]:
             factor = value(match)
             if factor > 1 and re.search(r"\bas (?:gent|soft|light)", match[0]):
                 factor = 1 / factor  # 'twice as gently'
+            if factor > 1 and _AT_MOST.search(text[: match.start()]):
+                factor = 1.0  # 'no more than twice the usual force' asks for no more than usual
             return factor, match[0], text[: match.start()] + f" {MARK} " + text[match.end() :]
     return None, "", text
 

@@ -222,6 +222,9 @@ def test_a_negative_force_keeps_its_sign_in_the_words():
     [
         ("Hold it half as hard.", 0.5),
         ("Grip it twice as hard.", 2.0),
+        ("Hold it, no more than twice the usual force.", 1.0),
+        ("Squeeze it up to three times as hard.", 1.0),
+        ("Hold it with no more than half the usual force.", 0.5),
         ("Squeeze it three times as hard as usual.", 3.0),
     ],
 )
