@@ -53,7 +53,8 @@ class Writer:
         return SimpleNamespace(text=self.query, ended=self.ended)
 
     def log_likelihoods(self, prompt, replies):
-        return [0.0 if reply == self.query else 2 * math.log(0.19 / 0.81) for reply in replies]
+        rival = math.log(0.19 / 0.81) / understanding.WRITERS_PART
+        return [0.0 if reply == self.query else rival for reply in replies]
 
 
 def test_the_numbers_of_a_question_come_from_the_question():
@@ -263,7 +264,7 @@ class Sure(Odds):
     """Is sure of one query."""
 
     def of(self, query):
-        return 0.0 if query == self.rival else -4.0
+        return 0.0 if query == self.rival else -3.0
 
 
 @pytest.mark.parametrize(("likelihood", "query"), [(-3.0, "unknown name."), (-30.0, "word shape.")])
