@@ -15,6 +15,15 @@ from tacgrasp.base.stop_signals import STOP_SIGNALS, stop_signals_as_ctrl_c
 from tests.paths import ROOT
 
 
+@pytest.fixture(autouse=True)
+def signals_as_a_terminal_leaves_them():
+    """A suite that nohup started has SIGHUP ignored."""
+    before = {number: signal.signal(number, signal.SIG_DFL) for number in STOP_SIGNALS}
+    yield
+    for number, handler in before.items():
+        signal.signal(number, handler)
+
+
 @pytest.mark.parametrize("number", STOP_SIGNALS)
 def test_a_signal_interrupts_once_and_is_what_it_was_afterwards(number):
     with stop_signals_as_ctrl_c() as received:
