@@ -12,6 +12,9 @@ from tacgrasp.training import query_classifier
 from tacgrasp.training.query_classifier import QueryClassifierRequest, draw_block, train
 
 
+STEPS = 64
+
+
 @pytest.fixture(autouse=True)
 def _small(monkeypatch):
     monkeypatch.setattr(query_classifier, "BLOCK", 400)
@@ -47,7 +50,7 @@ def test_it_learns_and_goes_on_where_it_stopped(tmp_path):
     def request(name, steps):
         return QueryClassifierRequest(out=tmp_path / name, questions=1200, steps=steps)
 
-    train(request("whole", 40), Console(quiet=True))
+    train(request("whole", STEPS), Console(quiet=True))
     whole = load_classifier(tmp_path / "whole")
     stage = query_classifier.Stage
 
@@ -57,7 +60,7 @@ def test_it_learns_and_goes_on_where_it_stopped(tmp_path):
     class Stopping(stage):
         def train(self, losses):
             def some(step):
-                if step == 25:
+                if step == STEPS // 2:
                     self.save()
                     raise StoppedError
                 return losses(step)
@@ -67,15 +70,15 @@ def test_it_learns_and_goes_on_where_it_stopped(tmp_path):
     query_classifier.Stage = Stopping
     try:
         with pytest.raises(StoppedError):
-            train(request("stopped", 40), Console(quiet=True))
+            train(request("stopped", STEPS), Console(quiet=True))
     finally:
         query_classifier.Stage = stage
-    train(request("stopped", 40), Console(quiet=True))
+    train(request("stopped", STEPS), Console(quiet=True))
     stopped = load_classifier(tmp_path / "stopped")
     for name, value in whole.state_dict().items():
         assert torch.equal(value, stopped.state_dict()[name]), name
     curve = (tmp_path / "whole" / ".training" / "queries.csv").read_text().splitlines()
-    assert len(curve) == 41
+    assert len(curve) == STEPS + 1
     losses = [float(row.split(",")[2]) for row in curve[1:]]
     assert sum(losses[-5:]) < 0.8 * sum(losses[:5])
 

@@ -115,10 +115,11 @@ _BAND_SLOTS: Slots = {
         "band_high": "(upper|top|high|highest|maximum)",
     },
     "needed": {
-        "band_low": "((do|would) (we|I|you) need|does {thing} need|is (needed|necessary) for {thing})",
+        "band_low": "((do|would) (we|I|you) need [to (hold|lift|pick up|carry) {thing}]|does {thing} need [to be "
+        "(held|lifted)]|is (needed|necessary) (to (hold|lift|pick up) {thing}|for {thing}))",
     },
     "needs": {
-        "band_low": "((we|I|you) need|{thing} needs)",
+        "band_low": "((we|I|you) need [to (hold|lift|pick up|carry) {thing}]|{thing} needs|is needed to (hold|lift) {thing})",
     },
     "at_end": {
         "band_low": "(at least|at the least|at a minimum|as a minimum|at the very least)",

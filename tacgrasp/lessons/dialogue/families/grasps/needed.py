@@ -40,12 +40,6 @@ _NEEDED = AmountWording(
             "{load}|{load} (needs|requires|takes)|it takes to (hold|lift) {load}",
         ),
         Asked(
-            "(how much (force|grip force|grip|squeeze)|what force|which force)",
-            "(do|would) (we|I|you) need to (hold|lift|carry|pick up) {thing}|is (needed|necessary) "
-            "to (hold|lift|pick up) {thing}",
-            "(we|I|you) need to (hold|lift|carry|pick up) {thing}|is needed to (hold|lift) {thing}",
-        ),
-        Asked(
             "what",
             f"is the {_LEAST} [grip] force [(I|we) need|that is needed] {_TO_HOLD} {{load}}|is the {_LEAST} [grip] force that "
             "(holds|carries|would hold) {load}",
