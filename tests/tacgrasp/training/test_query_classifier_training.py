@@ -11,7 +11,6 @@ from tacgrasp.lessons.dialogue.query import read_query
 from tacgrasp.training import query_classifier
 from tacgrasp.training.query_classifier import QueryClassifierRequest, draw_block, train
 
-
 STEPS = 64
 
 
