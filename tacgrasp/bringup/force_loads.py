@@ -26,7 +26,7 @@ from primitives.errors import RobotError
 from tacgrasp.base.errors import UsageError
 from tacgrasp.rig.gel_sense import GelSense
 from tacgrasp.rig.protocols import Clock, Rig, TactileSensor
-from tacgrasp.rig.release import let_go, opened_afterwards
+from tacgrasp.rig.release import CLEAR_M, let_go, opened_afterwards
 
 LOADS_N = (0.5, 1.0, 2.0, 5.0)
 """Loads where none are named [N]."""
@@ -36,9 +36,6 @@ NUM_FRAMES = 10
 
 SETTLE_S = 1.0
 """Wait between a grip and its reading [s]: gels creep at first."""
-
-CLEAR_M = 0.01
-"""Opening of the gripper between loads [m]."""
 
 G_M_S2 = 9.81
 

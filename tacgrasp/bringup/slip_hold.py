@@ -9,10 +9,7 @@ from cltp.errors import TouchError
 from cltp.tactile.shear.field import ShearField
 from tacgrasp.drivers.opening import check_open
 from tacgrasp.rig.protocols import Rig, ShearSensor
-from tacgrasp.rig.release import let_go, opened_afterwards
-
-CLEAR_M = 0.01
-"""Opening afterwards [m]."""
+from tacgrasp.rig.release import CLEAR_M, let_go, opened_afterwards
 
 UNLOAD_STEPS, LEAST_FACTOR = 10, 0.4
 """Steps of the unload, and the force at its end over that of the hold. Our choice: a contact that

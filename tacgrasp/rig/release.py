@@ -14,6 +14,9 @@ from primitives.errors import RobotError
 from tacgrasp.base.errors import UsageError
 from tacgrasp.episodes.interrupts import delayed_interrupts
 
+CLEAR_M = 0.01
+"""Opening that frees what a measurement held [m]."""
+
 FREE_BY_HAND = (
     "what it grips may still be held: support it, then switch the gripper's power off, or remove "
     "the cause and open with tacgrasp jog (key o)"

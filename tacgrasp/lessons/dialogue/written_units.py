@@ -54,7 +54,7 @@ def numbers_in_units(query: str, words: str, numbers: Sequence[float]) -> tuple[
         for match in _GIVEN_UNIT.finditer(part):
             *named, unit = match.groups()
             places = [int(place) - 1 for place in named if place]
-            has = {place: written[place] for place in places if written[place : place + 1] > [""]}
+            has = {at: written[at] for at in places if at < len(written) and written[at]}
             if unit not in UNITS or not has:
                 continue
             if len({UNITS[each].dimension for each in has.values()}) > 1:
