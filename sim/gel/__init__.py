@@ -3,5 +3,5 @@
 Not here: the pressing bodies and objects (``sim.objects``, ``sim.grasp``, ``sim.full``), sensor
 noise (``cltp.tactile.sensor_noise``).
 
-May import: cltp.sensing, cltp.tactile.
+May import: cltp.gel, cltp.sensing, cltp.tactile.
 """

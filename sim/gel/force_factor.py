@@ -11,7 +11,7 @@ from functools import lru_cache
 
 import torch
 
-from sim.gel.compliance import GelMaterial
+from cltp.gel.compliance import GelMaterial
 from sim.gel.layer import ElasticLayer, gel_of
 
 BALL_RADIUS_MM = 7.5

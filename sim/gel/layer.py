@@ -19,8 +19,9 @@ from functools import cached_property
 import torch
 from torch import Tensor
 
+from cltp.gel.compliance import GelMaterial, layer_compliance
 from cltp.tactile.sensors import SENSORS
-from sim.gel.compliance import GelMaterial, Spectrum, layer_compliance, spectrum_of
+from sim.gel.compliance import Spectrum, spectrum_of
 from sim.gel.contact_solver import Solution, solve
 from sim.gel.gap import NO_BODY_MM
 

@@ -10,8 +10,8 @@ import datetime
 
 import numpy as np
 
+from cltp.gel.compliance import GelMaterial
 from cltp.sensing.force_calibration import ForceCalibration, ForceLoad, fit_force
-from sim.gel.compliance import GelMaterial
 from sim.gel.force_factor import force_factor
 
 LOADS_N = (0.5, 1.0, 2.0, 5.0)

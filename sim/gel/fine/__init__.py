@@ -2,5 +2,5 @@
 
 Not here: the plain press on one grid (``sim.gel.layer``).
 
-May import: sim.gel.
+May import: cltp.gel, sim.gel.
 """

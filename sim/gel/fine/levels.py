@@ -16,7 +16,8 @@ import torch
 from scipy.fft import next_fast_len
 from torch import Tensor
 
-from sim.gel.compliance import GelMaterial, Spectrum, kernel_of, spectrum_from
+from cltp.gel.compliance import GelMaterial, kernel_of
+from sim.gel.compliance import Spectrum, spectrum_from
 from sim.gel.contact_solver import Solution, solve
 from sim.gel.fine.single import BoxCompliance, box_compliance, convolution, solve_single
 from sim.gel.gap import NO_BODY_MM

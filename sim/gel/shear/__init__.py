@@ -3,5 +3,5 @@
 Not here: the pressure (``sim.gel.layer``), which is solved without friction; how a body moves
 (``sim.grasp``).
 
-May import: sim.gel, cltp.tactile.
+May import: sim.gel, cltp.gel, cltp.tactile.
 """

@@ -9,7 +9,7 @@ from __future__ import annotations
 import torch
 from torch import Tensor
 
-from sim.gel.compliance import GelMaterial
+from cltp.gel.compliance import GelMaterial
 from sim.gel.layer import ElasticLayer
 from sim.gel.shear.layer import Shear, ShearLayer
 

@@ -42,7 +42,7 @@ import math
 import torch
 from torch import Tensor
 
-from sim.gel.compliance import GelMaterial
+from cltp.gel.compliance import GelMaterial
 
 
 def shear_modulus_mpa(material: GelMaterial) -> float:

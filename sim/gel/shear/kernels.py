@@ -23,7 +23,7 @@ from scipy.fft import next_fast_len
 from scipy.interpolate import CubicSpline
 from torch import Tensor
 
-from sim.gel.compliance import GelMaterial
+from cltp.gel.compliance import GelMaterial
 from sim.gel.shear.compliance import (
     coupling_compliance,
     longitudinal_compliance,

@@ -25,7 +25,7 @@ from dataclasses import dataclass, replace
 import torch
 from torch import Tensor
 
-from sim.gel.compliance import GelMaterial
+from cltp.gel.compliance import GelMaterial
 from sim.gel.layer import ElasticLayer
 from sim.gel.shear.friction import FrictionSolution, solve_friction
 from sim.gel.shear.kernels import ShearSpectrum

@@ -12,7 +12,7 @@ from functools import lru_cache
 import torch
 from torch import Tensor
 
-from sim.gel.compliance import GelMaterial
+from cltp.gel.compliance import GelMaterial
 from sim.gel.shear.kernels import ShearKernel, ShearSpectrum, shear_kernel, shear_spectrum_from
 
 _BOX_MULTIPLE = 6

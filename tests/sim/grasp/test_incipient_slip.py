@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 import torch
 
+from cltp.gel.compliance import GelMaterial
 from cltp.tactile.sensors import sensor_named
-from sim.gel.compliance import GelMaterial
 from sim.gel.layer import ElasticLayer, gel_of
 from sim.gel.shear.coarse import CoarseShear
 from sim.gel.shear.load import carry

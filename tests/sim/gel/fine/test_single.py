@@ -3,7 +3,8 @@
 import pytest
 import torch
 
-from sim.gel.compliance import layer_kernel, love_kernel, spectrum_from
+from cltp.gel.compliance import layer_kernel, love_kernel
+from sim.gel.compliance import spectrum_from
 from sim.gel.contact_solver import solve
 from sim.gel.fine.single import box_compliance, convolution, solve_single
 from sim.gel.layer import gel_of

@@ -3,7 +3,7 @@
 import pytest
 import torch
 
-from sim.gel.compliance import GelMaterial
+from cltp.gel.compliance import GelMaterial
 from sim.gel.shear.friction import solve_friction
 from sim.gel.shear.kernels import shear_kernel, shear_spectrum_from
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import torch
 
-from sim.gel.compliance import GelMaterial
+from cltp.gel.compliance import GelMaterial
 from sim.gel.shear.compliance import (
     coupling_compliance,
     longitudinal_compliance,

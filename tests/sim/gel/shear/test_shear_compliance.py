@@ -7,7 +7,7 @@ import pytest
 import torch
 from scipy.linalg import expm
 
-from sim.gel.compliance import GelMaterial, layer_compliance
+from cltp.gel.compliance import GelMaterial, layer_compliance
 from sim.gel.shear.compliance import (
     coupling_compliance,
     longitudinal_compliance,

@@ -5,7 +5,7 @@ import math
 import pytest
 import torch
 
-from sim.gel.compliance import GelMaterial
+from cltp.gel.compliance import GelMaterial
 from sim.gel.layer import ElasticLayer, gel_of
 from sim.gel.shear.layer import ShearLayer
 

@@ -5,13 +5,8 @@ import math
 import pytest
 import torch
 
-from sim.gel.compliance import (
-    GelMaterial,
-    layer_compliance,
-    layer_kernel,
-    love_kernel,
-    spectrum_of,
-)
+from cltp.gel.compliance import GelMaterial, layer_compliance, layer_kernel, love_kernel
+from sim.gel.compliance import spectrum_of
 
 MINI = GelMaterial(thickness_mm=3.6, young_mpa=0.145, poisson=0.495)
 
