@@ -102,8 +102,12 @@ def write_card(folder: Path, facts: Mapping[str, str]) -> None:
     _write(folder, "\n".join(lines), "\n\n| | |\n|---|---|\n")
 
 
-def renew_card(folder: Path) -> None:
-    """Write today's front matter and parts into a card; facts and scores stay as they are.
+def renew_card(folder: Path, facts: Mapping[str, str] | None = None) -> None:
+    """Write today's front matter and parts into a card; scores and other facts stay as they are.
+
+    Args:
+        folder: Folder of the weights.
+        facts: Facts that are added, or take the place of those of the same name.
 
     Raises:
         WeightsError: There is no card, or a part can't be read.
@@ -115,7 +119,11 @@ def renew_card(folder: Path) -> None:
     if text.startswith("---\n"):
         text = text.partition("\n---\n")[2]
     above, _, scores = text.partition(SCORES)
-    _write(folder, above.partition(_PARTS)[0].strip(), scores)
+    lines = above.partition(_PARTS)[0].strip().splitlines()
+    for name, value in (facts or {}).items():
+        lines = [line for line in lines if not line.startswith(f"| {name} |")]
+        lines.append(f"| {name} | {value} |")
+    _write(folder, "\n".join(lines), scores)
 
 
 def _write(folder: Path, above: str, scores: str) -> None:

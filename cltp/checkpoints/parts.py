@@ -33,6 +33,7 @@ from cltp.checkpoints.weight_files import (
     save_weights,
 )
 from cltp.encoder.encoder import EncoderConfig, TactileEncoder
+from cltp.encoder.force_head import ForceHead
 from cltp.encoder.heads import StateHeads
 from cltp.errors import TouchError
 from cltp.llm.tac3d_llm import Projector
@@ -79,7 +80,9 @@ class StoredEncoder:
         check_room(folder, config)
         encoder = random_encoder(folder, config)
         has_intervals = config.get("intervals") is True  # weights of before have none
-        stored = cls(encoder, StateHeads.of(encoder.config, intervals=has_intervals))
+        heads = StateHeads.of(encoder.config, intervals=has_intervals)
+        heads.force = ForceHead() if config.get("force") is True else None
+        stored = cls(encoder, heads)
         load_weights(folder, _EncoderWithHeads(stored.encoder, stored.heads))
         return stored
 
@@ -90,6 +93,7 @@ class StoredEncoder:
             "version": ENCODER_VERSION,
             "encoder": dataclasses.asdict(self.encoder.config),
             **({"intervals": True} if self.heads.has_intervals else {}),
+            **({"force": True} if self.heads.force is not None else {}),
         }
         _save_halved(Path(folder), config, _EncoderWithHeads(self.encoder, self.heads))
 

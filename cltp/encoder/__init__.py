@@ -3,5 +3,5 @@
 Everything here is a module or a loss over tensors. Not here: training (``cltp.train``) and files of
 weights (``cltp.checkpoints``).
 
-May import: cltp, cltp.tactile, cltp.texts.
+May import: cltp, cltp.gel, cltp.tactile, cltp.texts.
 """

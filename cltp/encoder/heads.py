@@ -15,13 +15,13 @@ import torch.nn.functional as F
 from torch import Tensor, nn
 
 from cltp.encoder.encoder import EncoderConfig
+from cltp.encoder.force_head import ForceHead, force_inputs
+from cltp.encoder.heads_output import HeadsOutput
+from cltp.encoder.quantiles import pinball, widening
 from cltp.tactile.states import CLASSES, NUMBERS, ContactState, Side
 
 SMALLEST_FORCE_N = 0.05
 """Forces are learned as logarithms; below this force, errors count in newtons."""
-
-COVERAGE = 0.9
-"""Fraction of contacts whose true number lies in its interval."""
 
 LEAST_CONTACTS = 20
 """Fewest contacts to calibrate by. Our choice: a tail of 5 % is then one contact."""
@@ -36,6 +36,8 @@ USUAL = 0.998
 """Fraction of contacts whose measured depth does not contradict the one that is read."""
 
 IGNORED = -1
+
+_FORCE = NUMBERS.index("force_n")
 
 
 class Targets(NamedTuple):
@@ -81,34 +83,13 @@ def restored(values: Tensor) -> Tensor:
     return torch.stack([depth * 0.3, x * 5, y * 5, (area.clamp(min=0) * 0.3) ** 2, newtons], dim=-1)
 
 
-class HeadsOutput(NamedTuple):
-    """Output of the heads for a batch.
-
-    Attributes:
-        logits: Logits of the five slots, each (B, classes).
-        numbers: Shape (B, 5), transformed ``NUMBERS``.
-        touching: Shape (B,), logit of contact.
-        cut: Shape (B, 4), logit that each side cuts the contact.
-        margins: Shape (B, 5, 2), how far below and above ``numbers`` their intervals reach, at
-            least 0; None of heads without intervals.
-    """
-
-    logits: tuple[Tensor, ...]
-    numbers: Tensor
-    touching: Tensor
-    cut: Tensor
-    margins: Tensor | None = None
-
-
 class StateHeads(nn.Module):
     """All heads behind one hidden layer.
 
     Intervals are learned as quantiles. Afterwards they are fitted once more, and widened by one
-    factor for each number until they hold ``COVERAGE`` of the truth, on contacts that nothing else
-    was learned from: those of training have smaller errors.
-
-    Source: conformalized quantile regression, Romano, Patterson and Candès, 2019, with a factor
-    where they have a term.
+    factor for each number until they hold nine tenths of the truth, on contacts that nothing else
+    was learned from: those of training have smaller errors (``cltp.encoder.quantiles``).
+    ``force``, where there is one, then reads the force anew.
 
     Args:
         pooled_dim: Width of ``Encoded.pooled``.
@@ -143,6 +124,7 @@ class StateHeads(nn.Module):
         self.register_buffer("lengths_along", along, persistent=False)
         anything = torch.tensor([-1e3, 1e3])  # until they are calibrated, nothing contradicts
         self.register_buffer("contradiction", anything if intervals else None)
+        self.force: ForceHead | None = None
 
     @classmethod
     def of(cls, config: EncoderConfig, *, intervals: bool = True) -> StateHeads:
@@ -163,6 +145,21 @@ class StateHeads(nn.Module):
             margins = F.softplus(parts[-1]).unflatten(-1, (len(NUMBERS), 2))
             margins = margins * (self.widening * units)[..., None]
         return HeadsOutput(logits, numbers * units, touching[:, 0], cut, margins)
+
+    def read(self, pooled: Tensor, points: Tensor) -> HeadsOutput:
+        """``forward``, with the force of the force head, where there is one.
+
+        Args:
+            pooled: ``Encoded.pooled``, shape (B, 2 C).
+            points: The scaled points that were encoded, shape (B, N, 3).
+        """
+        output: HeadsOutput = self(pooled)
+        if self.force is None or output.margins is None:
+            return output
+        force = self.force(force_inputs(points, output))
+        numbers, margins = output.numbers.clone(), output.margins.clone()
+        numbers[:, _FORCE], margins[:, _FORCE] = force
+        return output._replace(numbers=numbers, margins=margins)
 
     def _units(self, pooled: Tensor) -> Tensor:
         """What each number is read in, over what it is told in: (B, 5), or (1,) for ones."""
@@ -200,7 +197,7 @@ class StateHeads(nn.Module):
         for _ in range(FIT_STEPS):
             margins = F.softplus(F.linear(hidden, weight, bias)).unflatten(-1, (len(NUMBERS), 2))
             optimiser.zero_grad()
-            _pinball(errors, margins).mean().backward()
+            pinball(errors, margins).mean().backward()
             optimiser.step()
         with torch.no_grad():
             self.out.weight[-count:] = weight
@@ -211,10 +208,7 @@ class StateHeads(nn.Module):
         read = self(pooled)
         assert self.widening is not None and read.margins is not None  # as ``calibrate`` has seen
         errors = truth - read.numbers
-        below, above = (read.margins + 1e-9).unbind(-1)
-        needed = torch.maximum(-errors / below, errors / above)
-        rank = min(1.0, COVERAGE * (1 + 1 / len(needed)))
-        self.widening.copy_(needed.quantile(rank, dim=0))
+        self.widening.copy_(widening(errors, read.margins))
 
     @torch.no_grad()
     def calibrate_contradiction(self, pooled: Tensor, labels: Targets, measured_mm: Tensor) -> None:
@@ -248,7 +242,7 @@ class StateHeads(nn.Module):
         terms["touching"] = F.binary_cross_entropy_with_logits(touching, labels.touching)
         terms["cut"] = F.binary_cross_entropy_with_logits(cut, labels.cut)
         if margins is not None:
-            beyond = _pinball(labels.numbers - numbers.detach(), margins)
+            beyond = pinball(labels.numbers - numbers.detach(), margins)
             terms["margins"] = (beyond * labels.touching[:, None]).sum(1).mean()
         return terms
 
@@ -266,11 +260,3 @@ def outside(measured: Tensor, value: Tensor, low: Tensor, high: Tensor) -> Tenso
     is_above = measured > value
     width = torch.where(is_above, high - value, value - low).clamp(min=1e-6)
     return (measured - value) / width
-
-
-def _pinball(errors: Tensor, margins: Tensor) -> Tensor:
-    """Quantile loss of the two ends of margins (..., 2) around errors (...): shape (...)."""
-    tail = (1 - COVERAGE) / 2
-    below, above = -errors - margins[..., 0], errors - margins[..., 1]  # both positive outside
-    ends = torch.stack([below, above])
-    return torch.maximum((1 - tail) * ends, -tail * ends).sum(0)

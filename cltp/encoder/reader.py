@@ -126,8 +126,9 @@ class TouchReader:
     @torch.inference_mode()
     def read(self, cloud: TactileCloud) -> TouchReading:
         """Read one cloud."""
-        points = encoder_input(cloud, self._encoder.config.variant.layout)
-        output = self._heads(self._encoder(torch.from_numpy(points)[None]).pooled)
+        layout = self._encoder.config.variant.layout
+        points = torch.from_numpy(encoder_input(cloud, layout))[None]
+        output = self._heads.read(self._encoder(points).pooled, points)
         scale = cloud.force_scale
         read = readings_of(output, scale.factor, scale.spread)
         return reading_of(read, cloud, self._heads.contradiction)

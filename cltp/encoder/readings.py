@@ -11,7 +11,8 @@ from typing import NamedTuple
 import torch
 from torch import Tensor
 
-from cltp.encoder.heads import HeadsOutput, restored
+from cltp.encoder.heads import restored
+from cltp.encoder.heads_output import HeadsOutput
 from cltp.errors import TouchError
 from cltp.tactile.states import NUMBERS
 

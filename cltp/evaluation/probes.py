@@ -15,7 +15,7 @@ Ensembles', 2017.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -23,6 +23,7 @@ import torch
 import torch.nn.functional as F
 from torch import Tensor, nn
 
+from cltp.data.sampler import Batch
 from cltp.encoder.heads import StateHeads, restored, transformed
 from cltp.errors import TouchError
 from cltp.evaluation.features import EncodedContacts
@@ -42,9 +43,17 @@ _DEPTH = list(CLASSES).index("depth")
 
 
 @torch.inference_mode()
-def predict_with_heads(heads: StateHeads, encoded: EncodedContacts) -> Predictions:
-    """What state heads that were trained with the encoder predict."""
-    logits, numbers, *_ = heads(encoded.pooled)
+def predict_with_heads(
+    heads: StateHeads, encoded: EncodedContacts, batches: Sequence[Batch]
+) -> Predictions:
+    """What state heads that were trained with the encoder predict of encoded batches."""
+    outputs, first = [], 0
+    for batch in batches:
+        pooled = encoded.pooled[first : first + len(batch.points)]
+        outputs.append(heads.read(pooled, torch.from_numpy(batch.points)))
+        first += len(batch.points)
+    logits = [torch.cat(parts) for parts in zip(*(o.logits for o in outputs), strict=True)]
+    numbers = torch.cat([output.numbers for output in outputs])
     return Predictions(best_classes(logits), restored(numbers).numpy())
 
 

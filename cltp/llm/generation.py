@@ -142,9 +142,10 @@ class Talker:
             TouchError: The weights' heads have no intervals.
         """
         marks = [self._clock()]
-        encoded = self.model.encoder(torch.from_numpy(points)[None])
+        batch = torch.from_numpy(points)[None]
+        encoded = self.model.encoder(batch)
         marks.append(self._clock())
-        output = self.model.heads(encoded.pooled)
+        output = self.model.heads.read(encoded.pooled, batch)
         readings = readings_of(output, scale.factor, scale.spread)
         if correct is not None:
             readings = correct(readings)

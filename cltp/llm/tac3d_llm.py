@@ -101,7 +101,7 @@ class Tac3dLlm(nn.Module):
     def touch(self, points: Tensor) -> Tensor:
         """Embeddings of scaled points (B, N, 3) of nominal units: shape (B, P, D)."""
         encoded = self.encoder(points)
-        return self.projected(encoded, readings_of(self.heads(encoded.pooled)))
+        return self.projected(encoded, readings_of(self.heads.read(encoded.pooled, points)))
 
     def projected(
         self, encoded: Encoded, readings: HeadReadings, given: Tensor | None = None

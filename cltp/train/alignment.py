@@ -16,26 +16,18 @@ from torch import Tensor, nn
 
 from cltp.checkpoints.manifest import MANIFEST, manifest_digest
 from cltp.checkpoints.tac3d_llm import load_clip, load_encoder, save_encoder
-from cltp.data.contact import Split
-from cltp.data.dataset import ContactDataset
 from cltp.data.sampler import Augmentation, Batch, Sampler
 from cltp.encoder.encoder import EncoderConfig, TactileEncoder
 from cltp.encoder.heads import StateHeads, Targets, targets
 from cltp.encoder.losses import CltpLoss
 from cltp.errors import TouchError
-from cltp.tactile.measure import contact_state
+from cltp.train.calibration import calibrate_heads, fit_force
 from cltp.train.clip_feature_cache import FrozenFeatures
 from cltp.train.finite_check import check_batch
 from cltp.train.prefetch import prefetched
 from cltp.train.recipes import CLTP_SCHEDULE, CltpRecipe, Schedule
 from cltp.train.stage import Stage, TrainingRun
 from cltp.train.text_targets import TextTargets, draw_texts, matches_of_all, prompt_terms
-
-CALIBRATION_CONTACTS = 4000
-"""Most contacts that are read. The coverage then has a standard error of half a percent."""
-
-CALIBRATION_VIEWS = 2
-"""How often each is read, with another noise each time."""
 
 
 class _Learner(nn.Module):
@@ -114,6 +106,8 @@ def train_cltp(
         stage.plot()
         learner.cpu().eval()
         calibrate_heads(run, learner.encoder, learner.heads, augmentation)
+        trained_on = None if start is None else load_encoder(start)[1].force
+        fit_force(run, learner.encoder, learner.heads, augmentation, trained_on)
         save_encoder(folder, learner.encoder, learner.heads)
     workers.wait()
     return folder
@@ -129,6 +123,7 @@ def _take(start: Path, learner: _Learner) -> None:
             "sizes; name its own --preset, or train without --start"
         )
     learner.encoder.load_state_dict(encoder.state_dict())
+    heads.force = None  # fitted or taken over after the training
     learner.heads.load_state_dict(heads.state_dict())
 
 
@@ -237,35 +232,5 @@ def train_heads(
     stage.train(terms)
     heads = heads.cpu().eval()
     calibrate_heads(run, encoder.cpu(), heads, augmentation)
+    fit_force(run, encoder, heads, augmentation)
     return heads
-
-
-def calibrate_heads(
-    run: TrainingRun, encoder: TactileEncoder, heads: StateHeads, augmentation: Augmentation | None
-) -> None:
-    """Calibrate the heads on the validation split, with the noise of training.
-
-    Where the data has no such split, the intervals stay as they were learned.
-    """
-    data = ContactDataset(run.data)
-    held_out = np.flatnonzero(data.column("split") == Split.VALIDATION.value)
-    if not len(held_out):
-        return
-    sampler = Sampler(data, augmentation, seed=run.seed + 1, layout=encoder.config.variant.layout)
-    chosen = np.random.default_rng([run.seed, 71]).permutation(held_out)[:CALIBRATION_CONTACTS]
-    encoder.eval(), heads.eval()
-    pooled, labels, measured_mm = [], [], []
-    with torch.no_grad():
-        for step, first in enumerate(range(0, CALIBRATION_VIEWS * len(chosen), 64)):
-            drawn = chosen[np.arange(first, first + 64) % len(chosen)]
-            batch = sampler.batch(drawn, step)
-            pooled.append(encoder(torch.from_numpy(batch.points)).pooled)
-            labels.append(targets(batch.states))
-            clouds = (batch.cloud(row) for row in range(len(drawn)))
-            measured_mm += [contact_state(each, in_contact=True).depth_mm for each in clouds]
-    read, true = (
-        torch.cat(pooled),
-        Targets(*(torch.cat(parts) for parts in zip(*labels, strict=True))),
-    )
-    heads.calibrate(read, true)
-    heads.calibrate_contradiction(read, true, torch.tensor(measured_mm))

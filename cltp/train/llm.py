@@ -311,10 +311,11 @@ class ExchangeLearner:
     @torch.no_grad()
     def _felt(self, batch: Batch, factors: Tensor, spreads: Tensor) -> tuple[Encoded, HeadReadings]:
         """Encoding and readings of a batch; the readings on the CPU."""
+        points = torch.from_numpy(batch.points).to(self.run.workers.device)
         with self.run.workers.autocast():
-            encoded = self.model.encoder(torch.from_numpy(batch.points).to(self.run.workers.device))
+            encoded = self.model.encoder(points)
         encoded = Encoded(*(part.float() for part in encoded))
-        output = self.model.heads(encoded.pooled)
+        output = self.model.heads.read(encoded.pooled, points)
         device = encoded.pooled.device
         readings = readings_of(output, factors.to(device), spreads.to(device))
         return encoded, readings.to(torch.device("cpu"))

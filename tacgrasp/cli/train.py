@@ -214,6 +214,35 @@ class BaseFlags:
 
 
 @dataclass(frozen=True)
+class TrainForceFlags:
+    """Fit what reads the force of a contact from the mechanics of the gel; the rest stays.
+
+    Attributes:
+        weights: Folder of weights, or of one method.
+        data: Folder of contacts, which must exist.
+        seed: Random seed of contacts, noise and fit.
+        threads: Threads of torch; one for each core when not given.
+    """
+
+    weights: Path
+    data: Path = Path("runs/full")
+    seed: int = 0
+    threads: int | None = None
+
+    def train(self, command: str) -> None:
+        """Fit and write."""
+        import torch
+
+        from cltp.train.progress import Bar
+        from tacgrasp.training.force import train_force
+
+        if self.threads is not None:
+            torch.set_num_threads(self.threads)
+        with Bar() as report:
+            train_force(self.weights, self.data, command, seed=self.seed, report=report)
+
+
+@dataclass(frozen=True)
 class TrainSlipFlags:
     """Train the slip models on simulated loads on held bodies; needs no data.
 
@@ -351,6 +380,7 @@ STAGES: dict[str, tuple[type[Any], str]] = {
     "tvl": (TrainMethodFlags, "Baseline: an image encoder aligned with words for textures."),
     "unitouch": (TrainMethodFlags, "Baseline: an image encoder aligned with names of objects."),
     "queries": (TrainQueriesFlags, "What reads questions beside the language model."),
+    "force": (TrainForceFlags, "What reads forces from the mechanics of the gel, for any weights."),
     "slip": (TrainSlipFlags, "The slip models of all sensors that measure shear."),
     "reserve": (TrainReserveFlags, "What tells how much a held contact could still carry."),
     "random": (TrainRandomFlags, "Floor: an encoder that has learned nothing."),
@@ -373,6 +403,9 @@ def main(argv: Sequence[str]) -> int:
     command = shlex.join(["tacgrasp", "train", stage, *rest])
     if isinstance(flags, MethodsFlags):
         flags.train(stage, command)
+        return 0
+    if isinstance(flags, TrainForceFlags):
+        flags.train(command)
         return 0
     if isinstance(flags, TrainQueriesFlags | TrainSlipFlags | TrainReserveFlags):
         flags.train()

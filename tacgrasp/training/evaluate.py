@@ -109,7 +109,7 @@ def evaluate(
             described,
             read_numbers,
         ),
-        "heads": predict_with_heads(heads.eval(), encoded),
+        "heads": predict_with_heads(heads.eval(), encoded, described),
         "geometric_baseline": predict_geometrically(described),
     }
     states = [state for batch in described for state in batch.states]

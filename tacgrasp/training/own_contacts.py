@@ -151,7 +151,7 @@ def read_classes(
     encoder, heads = load_encoder(folder)
     encoder.eval(), heads.eval()
     encoded = encode_batches(frozen(encoder), batches)
-    yield "heads", predict_with_heads(heads, encoded).classes
+    yield "heads", predict_with_heads(heads, encoded, batches).classes
     if not (weights / "clip").is_dir():
         raise TouchError(f"{weights} has no clip; name a folder of weights or of tacgrasp train")
     prompts = ClassPrompts(load_clip(weights / "clip"))

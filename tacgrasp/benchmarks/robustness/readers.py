@@ -38,7 +38,8 @@ def heads_reader(weights: Path) -> Reader:
     """What the state heads of an encoder read."""
     encoder, heads = load_encoder(weights / "encoder")
     encoder.eval(), heads.eval()
-    return lambda batch: predict_with_heads(heads, encode_batches(frozen(encoder), [batch]))
+    reader = frozen(encoder)
+    return lambda batch: predict_with_heads(heads, encode_batches(reader, [batch]), [batch])
 
 
 @lru_cache(maxsize=1)

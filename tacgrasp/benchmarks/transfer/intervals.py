@@ -127,7 +127,8 @@ class _Reader:
             drawn_force_calibration(sensor_name, self.seed + place).scale
             for place in range(len(points))
         ]
-        output = self.heads(self.encoder(torch.from_numpy(points)).pooled)
+        clouds = torch.from_numpy(points)
+        output = self.heads.read(self.encoder(clouds).pooled, clouds)
         factors, spreads = (
             torch.tensor([getattr(scale, part) for scale in scales])
             for part in ("factor", "spread")

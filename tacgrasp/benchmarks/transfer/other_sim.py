@@ -123,7 +123,7 @@ def read(
     prompts = ClassPrompts(load_clip(weights / "clip"))
     return {
         "zero_shot": best_classes(prompts.cosines(encoded.feature)),
-        "heads": predict_with_heads(heads, encoded).classes,
+        "heads": predict_with_heads(heads, encoded, batches).classes,
     }
 
 

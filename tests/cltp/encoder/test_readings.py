@@ -3,7 +3,8 @@ import math
 import pytest
 import torch
 
-from cltp.encoder.heads import HeadsOutput, transformed
+from cltp.encoder.heads import transformed
+from cltp.encoder.heads_output import HeadsOutput
 from cltp.encoder.readings import TAILS, readings_of
 from cltp.errors import TouchError
 from cltp.tactile.states import CLASSES, NUMBERS

@@ -4,7 +4,8 @@ import pytest
 import torch
 
 from cltp.encoder.encoder import PRESETS, TactileEncoder
-from cltp.encoder.heads import HeadsOutput, StateHeads, transformed
+from cltp.encoder.heads import StateHeads, transformed
+from cltp.encoder.heads_output import HeadsOutput
 from cltp.encoder.readings import HeadReadings, readings_of
 from cltp.llm.causal_lm import Language, small_lm
 from cltp.llm.reading_tokens import LAST_DIGIT, NUM_READINGS, ReadingTokens

@@ -330,7 +330,8 @@ def test_a_handful_of_contacts_is_learned_by_heart(trained: Path, data_dir: Path
     encoder, heads = load_encoder(trained / "encoder")
     samples = random_batches(data, 12, CLEAN)
     encoded = encode_batches(frozen(encoder), samples)
-    scores = score_classes(predict_with_heads(heads.eval(), encoded).classes, encoded.classes)
+    predicted = predict_with_heads(heads.eval(), encoded, samples)
+    scores = score_classes(predicted.classes, encoded.classes)
     assert min(scores.accuracy.values()) >= 0.9
     talker = Talker(load_tac3d_llm(trained))
     states = [s for batch in samples for s in batch.states]
@@ -361,8 +362,10 @@ def test_shuffled_labels_do_not_generalise(
     run = TrainingRun(data=data_dir, out=folder)
     train_cltp(run, TINY, schedule(100, 12), augmentation=CLEAN)
     encoder, heads = load_encoder(folder / "encoder")
-    encoded = encode_batches(frozen(encoder), random_batches(data, 12, CLEAN))
-    shuffled = score_classes(predict_with_heads(heads.eval(), encoded).classes, encoded.classes)
+    samples = random_batches(data, 12, CLEAN)
+    encoded = encode_batches(frozen(encoder), samples)
+    predicted = predict_with_heads(heads.eval(), encoded, samples)
+    shuffled = score_classes(predicted.classes, encoded.classes)
     assert shuffled.accuracy["shape"] < 0.5  # against the true labels
 
 

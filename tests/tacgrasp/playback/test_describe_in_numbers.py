@@ -9,7 +9,8 @@ import pytest
 import torch
 
 from cltp.encoder.encoder import PRESETS, TactileEncoder
-from cltp.encoder.heads import HeadsOutput, StateHeads, transformed
+from cltp.encoder.heads import StateHeads, transformed
+from cltp.encoder.heads_output import HeadsOutput
 from cltp.encoder.reader import Flag, TouchReader, fine_noise_mm, reading_of
 from cltp.encoder.readings import readings_of
 from cltp.errors import TouchError

@@ -1,0 +1,140 @@
+"""What is set after the training of an encoder: intervals, contradictions, and the force head.
+
+Not here: the training (``cltp.train.alignment``).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+import torch
+from numpy.typing import NDArray
+from torch import Tensor
+
+from cltp.data.contact import Split
+from cltp.data.dataset import ContactDataset
+from cltp.data.sampler import Augmentation, Batch, Sampler
+from cltp.encoder.encoder import TactileEncoder
+from cltp.encoder.force_head import ForceHead, force_inputs
+from cltp.encoder.heads import StateHeads, Targets, targets
+from cltp.tactile.measure import contact_state
+from cltp.tactile.point_layout import GRID
+from cltp.tactile.states import NUMBERS
+from cltp.train.stage import TrainingRun
+
+CALIBRATION_CONTACTS = 4000
+"""Most contacts that are read. The coverage then has a standard error of half a percent."""
+
+CALIBRATION_VIEWS = 2
+"""How often each is read, with another noise each time."""
+
+FORCE_CONTACTS = 24_000
+"""Most contacts that a force head is fitted by: 1 ms each for the pressure, 10 ms in all."""
+
+LEAST_FORCE_CONTACTS = 2000
+"""Fewest: with fewer, forces stay as the heads read them. Our choice: 7,300 weights."""
+
+BATCH = 64
+
+_FORCE = NUMBERS.index("force_n")
+
+
+def calibrate_heads(
+    run: TrainingRun, encoder: TactileEncoder, heads: StateHeads, augmentation: Augmentation | None
+) -> None:
+    """Calibrate the heads on the validation split, with the noise of training.
+
+    Where the data has no such split, the intervals stay as they were learned.
+    """
+    data = ContactDataset(run.data)
+    held_out = np.flatnonzero(data.column("split") == Split.VALIDATION.value)
+    if not len(held_out):
+        return
+    sampler = Sampler(data, augmentation, seed=run.seed + 1, layout=encoder.config.variant.layout)
+    chosen = np.random.default_rng([run.seed, 71]).permutation(held_out)[:CALIBRATION_CONTACTS]
+    encoder.eval(), heads.eval()
+    pooled, labels, measured_mm = [], [], []
+    with torch.no_grad():
+        for step, first in enumerate(range(0, CALIBRATION_VIEWS * len(chosen), 64)):
+            drawn = chosen[np.arange(first, first + 64) % len(chosen)]
+            batch = sampler.batch(drawn, step)
+            pooled.append(encoder(torch.from_numpy(batch.points)).pooled)
+            labels.append(targets(batch.states))
+            clouds = (batch.cloud(row) for row in range(len(drawn)))
+            measured_mm += [contact_state(each, in_contact=True).depth_mm for each in clouds]
+    read, true = (
+        torch.cat(pooled),
+        Targets(*(torch.cat(parts) for parts in zip(*labels, strict=True))),
+    )
+    heads.calibrate(read, true)
+    heads.calibrate_contradiction(read, true, torch.tensor(measured_mm))
+
+
+def fit_force(
+    run: TrainingRun,
+    encoder: TactileEncoder,
+    heads: StateHeads,
+    augmentation: Augmentation | None,
+    start: ForceHead | None = None,
+) -> None:
+    """Give heads with intervals a force head, after ``calibrate_heads``.
+
+    It is fitted by contacts of the training split, whose forces heads read no better than others,
+    and its intervals are set on the validation split. An encoder that takes other points than the
+    grid, or a data set of fewer than ``LEAST_FORCE_CONTACTS``, gets none.
+
+    Args:
+        run: Data, seed and progress.
+        encoder: The encoder; it is not changed.
+        heads: Its heads.
+        augmentation: How contacts are varied.
+        start: Force head of weights that were trained on; it stays, and its intervals are set anew.
+    """
+    if encoder.config.variant.layout != GRID or not heads.has_intervals:
+        return
+    data = ContactDataset(run.data)
+    split, rng = data.column("split"), np.random.default_rng([run.seed, 73])
+    learned, held_out = (
+        rng.permutation(np.flatnonzero(split == each.value))
+        for each in (Split.TRAIN, Split.VALIDATION)
+    )
+    if start is None and len(learned) < LEAST_FORCE_CONTACTS:
+        return
+    with torch.random.fork_rng(devices=[]):
+        torch.manual_seed(run.seed)
+        head, heads.force = start or ForceHead(), None
+    sampler = Sampler(data, augmentation, seed=run.seed + 2, layout=GRID)
+    if start is None:
+        rows = learned[:FORCE_CONTACTS]
+        head.fit(*_force_samples(run, encoder, heads, sampler, rows), seed=run.seed)
+    if len(held_out):
+        rows = np.resize(held_out[:CALIBRATION_CONTACTS], CALIBRATION_VIEWS * len(held_out))
+        head.widen(*_force_samples(run, encoder, heads, sampler, rows))
+    heads.force = head
+
+
+def _force_samples(
+    run: TrainingRun,
+    encoder: TactileEncoder,
+    heads: StateHeads,
+    sampler: Sampler,
+    rows: NDArray[np.int64],
+) -> tuple[Tensor, Tensor]:
+    """Inputs (N, 43) of the force head and transformed forces (N,) of contacts that touch."""
+    inputs, forces = [], []
+    for batch in _batches(sampler, rows):
+        labels = targets(batch.states)
+        touched = labels.touching > 0
+        points = torch.from_numpy(batch.points)[touched]
+        with torch.no_grad():
+            inputs.append(force_inputs(points, heads(encoder(points).pooled)))
+        forces.append(labels.numbers[touched, _FORCE])
+        run.report("force", min(len(rows), BATCH * len(inputs)), len(rows), {})
+    return torch.cat(inputs), torch.cat(forces)
+
+
+def _batches(sampler: Sampler, rows: NDArray[np.int64]) -> Iterator[Batch]:
+    """Batches of contacts, the last one filled up from the first."""
+    for step, first in enumerate(range(0, len(rows), BATCH)):
+        yield sampler.batch(rows[first : first + BATCH], step)

@@ -1,0 +1,89 @@
+"""What is set after a training: which encoders and data sets get a force head."""
+
+import pytest
+import torch
+
+from cltp.data.contact import Split
+from cltp.data.sampler import CLEAN
+from cltp.encoder import force_head
+from cltp.encoder.encoder import PRESETS, TactileEncoder
+from cltp.encoder.force_head import ForceHead
+from cltp.encoder.heads import StateHeads
+from cltp.train import calibration
+from cltp.train.calibration import fit_force
+from cltp.train.stage import TrainingRun
+from tacgrasp.__main__ import main
+from tests.fakes.fake_contacts import write_contacts
+
+
+@pytest.fixture(scope="module")
+def run(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("contacts")
+    write_contacts(folder, {Split.TRAIN: range(80), Split.VALIDATION: range(80, 120)})
+    return TrainingRun(data=folder, out=folder)
+
+
+@pytest.fixture
+def brief(monkeypatch):
+    monkeypatch.setattr(force_head, "STEPS", 20)
+    monkeypatch.setattr(calibration, "LEAST_FORCE_CONTACTS", 10)
+    monkeypatch.setattr(calibration, "FORCE_CONTACTS", 64)
+
+
+def random_model(preset):
+    torch.manual_seed(0)
+    encoder = TactileEncoder(PRESETS[preset]).eval()
+    return encoder, StateHeads.of(encoder.config).eval()
+
+
+def test_few_contacts_give_no_force_head(run):
+    encoder, heads = random_model("tiny_grid")
+    fit_force(run, encoder, heads, CLEAN)
+    assert heads.force is None
+
+
+def test_an_encoder_of_other_points_gets_none(run, brief):
+    encoder, heads = random_model("tiny")
+    fit_force(run, encoder, heads, CLEAN)
+    assert heads.force is None
+
+
+def test_the_force_head_is_fitted_and_the_heads_stay_as_they_are(run, brief):
+    encoder, heads = random_model("tiny_grid")
+    before = {name: value.clone() for name, value in heads.state_dict().items()}
+    fit_force(run, encoder, heads, CLEAN)
+    assert heads.force is not None
+    after = heads.state_dict()
+    assert all(torch.equal(after[name], value) for name, value in before.items())
+    assert float(heads.force.spread.max()) > 0.1
+    assert float(heads.force.widening) != 1.0
+
+
+def test_a_force_head_that_is_trained_on_stays_but_for_its_intervals(run, brief):
+    encoder, heads = random_model("tiny_grid")
+    start = ForceHead()
+    weights = [p.clone() for p in start.parameters()]
+    fit_force(run, encoder, heads, CLEAN, start)
+    assert heads.force is start
+    assert all(torch.equal(a, b) for a, b in zip(start.parameters(), weights, strict=True))
+    assert float(start.widening) != 1.0
+
+
+def test_the_same_seed_fits_the_same_force_head(run, brief):
+    states = []
+    for other in range(2):
+        encoder, heads = random_model("tiny_grid")
+        torch.manual_seed(other)
+        fit_force(run, encoder, heads, CLEAN)
+        states.append(heads.state_dict())
+    for name, value in states[0].items():
+        torch.testing.assert_close(states[1][name], value, rtol=0, atol=0)
+
+
+def test_weights_of_other_points_are_refused_by_name(run, tmp_path, capsys):
+    from cltp.checkpoints.tac3d_llm import save_encoder
+
+    save_encoder(tmp_path / "encoder", *random_model("tiny"))
+    assert main(["train", "force", "--weights", str(tmp_path), "--data", str(run.data)]) == 2
+    message = capsys.readouterr().err
+    assert "'lattice'" in message and "tacgrasp data generate" in message
