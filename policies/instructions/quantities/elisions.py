@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 
-from policies.instructions.force_units import ALONE, NUMBER, UNIT, in_newtons, number
+from policies.instructions.quantities.force_units import ALONE, NUMBER, UNIT, in_newtons, number
 
 _BARE = NUMBER.removeprefix(ALONE)
 _PERCENT = r"\s*(?:%|percent|per cent)"

@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 from importlib import resources
 
-from policies.instructions.elisions import BEFORE_BOUND, BEFORE_VALUE
-from policies.instructions.force_units import LOOSE, NUMBER, UNIT
+from policies.instructions.quantities.elisions import BEFORE_BOUND, BEFORE_VALUE
+from policies.instructions.quantities.force_units import LOOSE, NUMBER, UNIT
 
 _WORDS = frozenset(
     re.findall(

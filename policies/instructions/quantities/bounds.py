@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import re
 
-from policies.instructions.denials import NO_CASE
-from policies.instructions.force_units import LOOSE, NUMBER, UNIT
+from policies.instructions.english.denials import NO_CASE
+from policies.instructions.quantities.force_units import LOOSE, NUMBER, UNIT
 
 _ONE = rf"(?P<one>{NUMBER}(?:\s*-?\s*(?:{UNIT}|{LOOSE})\b)?(?: of (?:grip )?force\b)?)"
 _NOT = rf"(?:not|never|no longer|{NO_CASE})"
