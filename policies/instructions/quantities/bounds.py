@@ -44,14 +44,20 @@ _PLAIN: tuple[tuple[str, str], ...] = (
 )  # fmt: skip
 
 _THAN = re.compile(
-    r"\b(more|less|fewer|greater|higher|lower|harder|softer|firmer|gentler|tighter|lighter|stronger|weaker) (?:then|tan|thn)(?= (?:about |around |roughly |exactly )?[\d.])"
+    r"\b(more|less|fewer|greater|higher|lower|smaller|bigger|larger|harder|softer|firmer|gentler|tighter|lighter|stronger|weaker) (?:then|tan|thn|as|from|(?<!more )like)(?= (?:about |around |roughly |exactly )?[\d.])"
 )
 """'No more then 1 N'."""
 
 
+_FROM = re.compile(
+    r"\b(under|below|beneath|above|over|beyond|exceed) (?:from|of|as|than|to) (?=[\d.])"
+)
+"""'Under from 1 N', as other languages have it."""
+
+
 def with_plain_bounds(text: str) -> str:
     """Write each bound of a plain text, its numbers in digits, with its words before its force."""
-    text = _THAN.sub(r"\1 than", text)
+    text = _FROM.sub(r"\1 ", _THAN.sub(r"\1 than", text))
     for pattern, plainly in _PLAIN:
         text = re.sub(pattern, plainly, text)
     return text

@@ -42,7 +42,7 @@ def read_delta(text: str) -> tuple[float | None, str]:
             1,
         ),
         (
-            rf"\b(?:subtract|take off|(?:reduce|lower|decrease|drop|cut)(?: \w+){{0,3}} by) {one}",
+            rf"\b(?:subtract|take off|(?:reduce|lower|decrease|drop|cut|down|ease|back off)(?: \w+){{0,3}} by) {one}",
             -1,
         ),
     ):

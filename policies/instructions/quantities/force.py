@@ -19,10 +19,12 @@ class Force:
         kind: A value to hold with, the most, or the least.
         value_n: The force [N].
         words: The words that name it.
+        is_told: Whether it is what an earlier grip told: a most of this kind raises no limit.
         within_n: Lowest and highest force of a stated tolerance [N]; None where none is stated.
     """
 
     kind: Kind
     value_n: float
     words: str
+    is_told: bool = False
     within_n: tuple[float, float] | None = None

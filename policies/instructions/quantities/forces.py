@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import re
+from typing import Literal
 
 from policies.instructions.english.denials import NO_CASE
 from policies.instructions.quantities.force import MARK, Force, Kind
+from policies.instructions.quantities.outcomes import AGAIN, Outcome, outcome
 from policies.instructions.quantities.relations import NOT, relation
 from policies.instructions.quantities.spans import force_spans
 
 _DROPPED = re.compile(
-    r"\b(?:not|never|instead of|rather than|forget(?: about)?|isn't|skip|no longer|nor)(?: (?:at|the|with|use|using|to|about|exactly))*\s*$"
+    r"\b(?:(?<!if )not|never|instead of|rather than|forget(?: about)?|isn't|skip|no longer|nor)(?: (?:at|the|with|use|using|to|about|exactly))*\s*$|^\s*,? ?than(?: (?:at|with|use|using))*\s*$"
 )
 _NOT_WITH = re.compile(
-    rf"\b(?<!why )(?<!why do )(?:{NO_CASE}|not(?! you (?:just |please )?(?:use|hold|keep|grip|grasp|take|try|go|apply)\b)|never|no|avoid\w*|refrain from)"
+    rf"\b(?<!why )(?<!why do )(?:{NO_CASE}|(?<!if )not(?! you (?:just |please )?(?:use|hold|keep|grip|grasp|take|try|go|apply)\b)|never|no|avoid\w*|refrain from)"
     r"(?: (?:ever|want|like|dare|you|to|hold|keep|grip|grasp|pinch|pick|take|lift|set|go|apply|use|using|it|this|that|the|"
     r"(?:straw ?)?berry|fruit|one|at|with|a|force|of|for|exactly|about|around|in|within|between|from))*\s*$"
 )
@@ -27,9 +29,14 @@ _OUTSIDE = re.compile(
 _BETWEEN = re.compile(
     rf"\bbetween(?: (?:the|a|some\w*|about))* {MARK}(?: \w+)? and(?: (?:the|a|about))*\s*$"
 )
+_WITHIN = re.compile(r"(?:between|from|in|within)\b")
 _CORRECTION = re.compile(
-    r"\b(?:no,? wait|wait,? no|make (?:that|it)|i mean|i meant|correction|scratch that|in other words|i\.e\.|meaning|or rather|sorry|actually)\b[ ,:-]*"
+    r"\b(?:no,? wait|wait,? no|make (?:that|it)|i mean|i meant|correction|scratch that|in other words|i\.e\.|meaning|or rather|sorry|actually|(?:or )?better(?: still| yet)?(?=[ ,:]*$))\b[ ,:-]*"
 )
+_CONDITION = re.compile(
+    r"\bif\b.*?(?=\b(?:use|hold|grip|apply|take|go|try|squeeze|press|then)\b)|\bif not\b"
+)
+"""'If it does not slip use 0.5 N': its denial is not that of the force."""
 _PAST = re.compile(
     r"\b(?:last (?:time|one|run|trial|try|berry)|yesterday|previous(?:ly)?|before|earlier|used to|was|were|had|"
     r"slipped|slid|crushed|squashed|bruised|dropped|tried|went|did)\b"
@@ -41,10 +48,26 @@ def read_forces(text: str) -> tuple[list[Force], str, str]:
     denied = ""
     found: list[tuple[Force, bool]] = []  # a force, and whether it is of the past or denied
     rest, end = "", 0
+    became: Literal["least", "most"] | None = None  # what the force before is by its outcome
     for start, stop, ends, within_n in force_spans(text):
         left, right = text[end:start], text[stop:]
         words = text[start:stop].strip()
-        if found and len(ends) == 1 and _BETWEEN.search(" ".join(f"{rest}{left}".split())):
+        said = outcome(f"{left.rstrip()} at" if _WITHIN.match(words) else left, right)
+        if said is None and became and AGAIN.fullmatch(left):
+            said = Outcome(kind=became, left_cut=len(left), right_cut=0)
+        became = said.kind if said and said.kind != "failed" else None
+        if said:
+            words = f"{left[said.left_cut :]}{words}{right[: said.right_cut]}".strip(" ,:")
+            left, stop = left[: said.left_cut], stop + said.right_cut
+            if said.kind == "failed":
+                denied = words
+                found.append((Force(kind="value", value_n=ends[0], words=words), False))
+            else:
+                value_n = max(ends) if said.kind == "least" else min(ends)
+                found.append(
+                    (Force(kind=said.kind, value_n=value_n, words=words, is_told=True), True)
+                )
+        elif found and len(ends) == 1 and _BETWEEN.search(" ".join(f"{rest}{left}".split())):
             other = found.pop()[0]
             low, high = sorted((other.value_n, ends[0]))
             words = f"{other.words} to {words}"
@@ -70,8 +93,10 @@ def read_forces(text: str) -> tuple[list[Force], str, str]:
                 .rstrip(" -")
             )
             left, stop = left[:left_cut], stop + right_cut
-            before = re.split(r"[.;,]\s|\bbut\b", left)[-1]
-            after = re.split(r"[.;,]\s?|\b(?:instead of|rather than)\b", text[stop:], maxsplit=1)[0]
+            before = _CONDITION.sub("", re.split(r"[.;,]\s|\bbut\b", left)[-1])
+            after = re.split(
+                r"[.;,]\s?|\b(?:instead of|rather than|because|since)\b", text[stop:], maxsplit=1
+            )[0]
             clause = before + after
             is_denied = kind == "value" and bool(_DROPPED.search(left) or NOT.search(before))
             if _CORRECTION.search(left) or _CORRECTION.match(text[stop:].lstrip(" .,;-–—")):

@@ -14,6 +14,8 @@ PLACE = re.compile(
     rf"\b{_SIDE}[- ](?:\w+ ){{0,2}}?{_PAD}\b|"
     r"\b(?:off-? ?cent(?:re|er)|cent(?:red|ered|ring|ering|rally)|cent(?:re|er) (?:it|the contact))\b(?:[^.;#]{0,20}\d ?(?:mm|millimet\w+))?|"
     rf"{NUMBER}\s*(?:mm|millimet\w+)(?: \w+){{0,3}}? (?:left of|right of|off|above|below|from) (?:the )?(?:cent(?:re|er)|middle|edge)\b|"
+    rf"{NUMBER}\s*(?:mm|cm|[µμu]m|millimet\w+|centimet\w+|microns?|micromet\w+)(?: (?:further|more|farther))? (?:(?:to|on|towards?) the )?(?:left|right|top|bottom|tip|base|stem|side|front|back|up(?:wards?)?|down(?:wards?)?|above|below|off|leftwards?|rightwards?|higher|lower)\b(?: of (?:the )?\w+)?|"
+    r"\b(?:near|by|at|close to|next to|around|below|above|under) (?:the|its) (?:stem|stalk|calyx|leaves|equator|waist|shoulders?|(?:widest|thickest) (?:point|part|place|spot)|tip|base|left|right)\b(?! of)|"
     rf"\b(?:contact|touch)\w*(?: \w+){{0,4}} (?:left|right|edge|corner|middle)\b"
 )
 AREA = re.compile(

@@ -82,6 +82,7 @@ def read_quantities(text: str) -> Quantities:
     text = re.sub(rf"({NUMBER})\s?-?ish\b", r"\1", text)
     text = re.sub(rf"({NUMBER}) ?\(((?:{UNIT}))\)", r"\1 \2", text)
     text = re.sub(rf"(\d)\.\s*(?=(?:{UNIT})\b)", r"\1 ", text)  # '5. N'
+    text = re.sub(rf"(?<![\d.,])0 ?[.,] ?(?=\d{{1,3}}\s*-?\s*(?:{UNIT})\b)", "0.", text)  # '0. 8 N'
     text, lone = without_lone(with_plain_tolerances(text))
     text = with_plain_bounds(text)
     text = _CHAIN.sub(r"between \1 and \2 \3", text)

@@ -24,7 +24,7 @@ _MOST = re.compile(
     r"\blimit(?:s|ed|ing)?(?: \w+){0,3}?(?: to| of| at| is|:| =|=)?|"
     r"\bcap(?:ped|ping)?(?: \w+){0,3}?(?: at| to| of| is|:| =|=)?|\bceiling(?: of| is| at|:| =|=)?|"
     r"\bupper (?:\w+ )?(?:limit|bound|end)(?: \w+){0,2}?(?: of| is| at|:| =|=)?|\bpeak(?: \w+){0,2}?(?: of| is| at|:| =|=)?|"
-    r"<=|≤|=<|\bnot to exceed|\bwithin|\bbounded (?:above )?(?:by|at)|\b(?:not|never)(?: let it)? (?:go|push|squeeze|press)(?: \w{1,4})?|\b(?:top|max|peak|level)(?:p?ing|s|p?ed)?(?: \w+)?(?: out)? at|\b(?:restrict|confin|constrain|throttl)\w*(?: \w+){0,3}? (?:to|at|by)|\b(?:may|can|could|might)(?: only| just| at most)? (?:be (?:raised|increased)|rise|go|climb|increase|grow|build|reach|extend)(?: up)?(?: to)?|\b(?:not|never|without|avoid\w*)(?: (?:ever|let|the|force|it|grip|even|quite|to|be|going|you|allow\w*|pressure|have|want|go|come|rise)){0,5} (?:reach(?:es|ing)?|hit(?:s|ting)?|get(?:s|ting)? (?:up )?to|attain\w*|ris(?:e|es|ing) to|climb\w* to)|\bno more than|\bnowhere near|\b(?:allowed|permitted)(?: (?:up )?to(?: (?:use|reach|rise to|climb to|go(?: up)? to))?)?|"
+    r"<=|≤|=<|\bnot to exceed|\bat (?:the )?worst|\bworst case|\bwithin|\bbounded (?:above )?(?:by|at)|\b(?:not|never)(?: let it)? (?:go|push|squeeze|press)(?: \w{1,4})?|\b(?:top|max|peak|level)(?:p?ing|s|p?ed)?(?: \w+)?(?: out)? at|\b(?:restrict|confin|constrain|throttl)\w*(?: \w+){0,3}? (?:to|at|by)|\b(?:may|can|could|might)(?: only| just| at most)? (?:be (?:raised|increased)|rise|go|climb|increase|grow|build|reach|extend)(?: up)?(?: to)?|\b(?:not|never|without|avoid\w*)(?: (?:ever|let|the|force|it|grip|even|quite|to|be|going|you|allow\w*|pressure|have|want|go|come|rise)){0,5} (?:reach(?:es|ing)?|hit(?:s|ting)?|get(?:s|ting)? (?:up )?to|attain\w*|ris(?:e|es|ing) to|climb\w* to)|\bno more than|\bnowhere near|\b(?:allow(?:ed)?|permit(?:ted)?)(?: (?:up )?to(?: (?:use|reach|rise to|climb to|go(?: up)? to))?)?|"
     r"\b(?:ease|eases|back|let)(?: \w+){0,2} (?:once|when|as soon as|at)(?: (?:you|it|we))?(?: (?:feel|reach|hit|see|measure|get to|read)\w*)?|\bfar (?:away )?from|\b(?:not|never)(?: (?:even|anywhere|get|go|come|be))* (?:close|near)(?: to)?|\bf[_ ]?max\s*[:=]?)"
     r"(?: (?:about|around|roughly))?\s*$"
 )
@@ -35,10 +35,10 @@ _LEAST = re.compile(
     r">=|≥|=>|\bno less than|\b(?:it|berry|fruit|this|that|one|strawberry|thing) (?:really |always )?(?:needs|requires|takes)|\bf[_ ]?min\s*[:=]?|\bstarting (?:at|from)|\bbottom out at)"
     r"(?: (?:about|around|roughly))?\s*$"
 )
-_OTHERS = r"(?!(?: than| of| is| to|:| =)?(?: (?:about|around|roughly))?(?: an?)? ?(?:\d|\.\d))"
+_OTHERS = r"(?!(?: it| them)?(?: than| of| is| to|:| =| at| with| from| above| over| beyond| by| under| below)?(?: (?:about|around|roughly))?(?: an?)? ?(?:\d|\.\d))"
 """Ends a bound after a number: '2 N, at most 2.2 N' bounds the second number, not the first."""
 
-_HARMS = r"(?:g[ia]ves? (?:way|in)|broke|tore|left (?:a |its )?(?:mark|dent|bruise)|fail|yield|suffer|complain|leak|collapse|spoil|bruis|crush|squash|burst|break|split|crack|damag|mark|dent|pop|hurt|mush|ruin|spoil|tear|pulp)\w*"
+_HARMS = r"(?:g[ia]ves? (?:way|in)|broke|tore|left (?:a |its )?(?:mark|dent|bruise)|fail|yield|suffer|complain|leak|collapse|spoil|bruis|crush|squash|burst|break|split|crack|damag|mark|dent|pop|hurt|mush|ruin|spoil|tear|pulp)\w*\b"
 _SLIPS = r"(?:slips?|falls?|drops?|slides?|turns?|gets? away|wobbles?)"
 _BEEN = r"(?:is|was|are|were|would be|will be|would have been|has been|had been|seems?|seemed|felt|proved|turned out)(?: to be)?"
 _UNWANTED = (
@@ -55,7 +55,7 @@ _MOST_AFTER = re.compile(
     r"(?:is|as|being)(?: (?!lower)\w+){0,3} (?:limit|max(?:imum)?|ceiling|cap|most|end of the line|last word)\b|(?:limit|ceiling|cap)\b(?!(?: of| is|:| =)? ?\d)|"
     r"(?:(?:an?|the|my|your|as|is|as an?|as the) )*upper (?:\w+ )?(?:bound|limit|end)\b|"
     rf"(?:,? ?(?:and|but) (?:it|that|this) )?(?:{_BEEN} )?(?:already |way |far |just |clearly |evidently )*too (?:much|hard|firm|high|strong|tight|rough|heavy|great)|and under\b|"
-    rf"{_BEEN} (?:already |strictly |absolutely |still |simply )*{_UNWANTED}|"
+    rf"at the (?:outside|utmost|very top)\b|{_BEEN} (?:already |strictly |absolutely |still |simply )*{_UNWANTED}|"
     rf"(?<!, )(?:already |surely |will |would |can |could |may |might |has |had |have )*{_HARMS}(?= (?:it|the|this|that|my|our|one|some|berr\w+|strawberr\w+|fruits?|a|easily|already|them)\b|\s*(?:$|[.;!,]))|"
     rf"(?:will|would|is where \w+|is when \w+) (?:already |surely )?{_HARMS}|(?:it|they|the (?:(?:last|previous|first|other) )?\w+) (?:already |surely )?{_HARMS})"
     + _OTHERS
@@ -79,6 +79,31 @@ _LEAST_SOMEWHERE = re.compile(
     r"(?:not|never|nor)\b.{0,30}\b(?:below|under|beneath|short of|less than|lower than) (?:it|that|this)\b|"
     r"(?:remain|stay|keep|be)\w* (?:it )?(?:just |well |safely )?(?:above|over) (?:it|that|this)\b|as (?:a|the) (?:floor|minimum|lower))"
 )
+_LOWERED = re.compile(
+    r"(?:\b(?:lower|reduce|decrease|cut|drop|bring down) (?:the|my|your|our|that|this|its) (?:\w+ )?|(?:^|[.;,!] ?|\b(?:please|just|now|then|and) )(?:lower|reduce|decrease|cut) (?:\w+ )?)"
+    r"(?:limit|bound|end|cap|ceiling|max\w*)(?: \w+){0,2}? (?:to|at)(?: (?:about|around|roughly))?\s*$"
+)
+"""'Lower the limit to 1 N' names a most, 'the lower limit is 1 N' a least."""
+_CONDITION = re.compile(
+    r"\b(?:if|unless|in case|only when|as needed|where needed|when(?:ever)? (?:it|the \w+) (?:slips?|slides?|starts?|moves?|needs?))\b"
+)
+_ONLY_IF = re.compile(
+    r"\s*,?\s*(?:(?:but )?only )?(?:if|when|where|as|unless) (?:really |absolutely |strictly )?(?:needed|necessary|required|need be|you must|you have to|it (?:slips|slides|needs)\b|unavoidable)"
+)
+_RISES = re.compile(
+    r"\b(?:go|get|rise|raise|increase|up|ramp|climb|bring|turn|crank|squeeze|more)\b[^.;,]{0,25}\bto(?: (?:about|around|roughly))?\s*$"
+)
+_REACHED = re.compile(
+    r"\b(?:if|when|whenever|once|should|as soon as|the moment)\b(?: \w+){1,3} (?:reach(?:es|ed)?|hits?|gets? to|attains?|shows?|reads?|climbs? to|rises? to)\s*$"
+)
+_IS_REACHED = re.compile(
+    r"\s*(?:is|are|has been|was|were) (?:reached|hit|attained|there|shown|felt)\b"
+)
+_ONCE = re.compile(r"\b(?:if|when|whenever|once|as soon as|the moment|should)\b[^.;,]{0,20}$")
+_ENOUGH = re.compile(
+    r"[^#]{0,25}?\b(?:stop|not|no more|never|enough|ease|back off|quit|halt|no further|hold there|cut)\b"
+)
+"""Behind a force that is reached: it ends there."""
 _EITHER_WAY = re.compile(
     r"\b(?:more or less|less or more|harder (?:or|nor) softer|softer (?:or|nor) harder|higher (?:or|nor) lower|lower (?:or|nor) higher|"
     r"above (?:or|nor) below|below (?:or|nor) above|over (?:or|nor) under|under (?:or|nor) over|firmer (?:or|nor) softer|softer (?:or|nor) firmer)(?: than)?\s*$"
@@ -102,6 +127,10 @@ _IF = re.compile(r"(?<!appreciate it )(?<!like it )(?<!good )\bif (?:you|it|the 
 _RISE = re.compile(
     r"\b(?:bring|take|raise|get|ramp|crank|turn|increase|dial|build|work|go)(?: (?:it|this|that|the \w+))?\s*$"
 )
+_UNCONCERNED = re.compile(
+    r"\b(?:(?:do|does|did|would|should|need|must|can) not (?:really |much )?(?:care|mind|matter|worry|bother|know|want to know|understand|fuss)|no (?:matter|problem|worries|idea|rush|hurry|question)|not (?:sure|bothered|fussed|certain)|why not|whether or not|no(?= (?:not|never|no)\b)|not (?=(?:not|never|no)\b))"
+)
+"""Denials that don't deny a bound: 'I do not care, just not above 1 N'."""
 _STOPS_SHORT = re.compile(
     r"\bstop(?:s|ping)?(?: (?!squeez|press|grip|hold)\w+){0,2}? (?:short of|shy of|before|below|under|beneath)(?: (?:about|around|roughly|the|a))?\s*$"
 )
@@ -120,6 +149,16 @@ _TOO_LITTLE = re.compile(
 )
 
 
+def _end_of_conditional_most(left: str, right: str) -> int | None:
+    """How much behind a force says that it is an end to be reached; None where it is none."""
+    reached = _IS_REACHED.match(right) if _ONCE.search(left) else None
+    cut = reached.end() if reached else 0
+    if (reached or _REACHED.search(left)) and _ENOUGH.match(right[cut:]):
+        return cut  # 'once 1 N is reached, stop'
+    conditional = _CONDITION.search(re.split(r"[.;]\s", left)[-1])
+    return 0 if (conditional and _RISES.search(left)) or _ONLY_IF.match(right) else None
+
+
 def relation(left: str, right: str) -> tuple[Kind, int, int]:
     """Kind of a force, and how much of the text on either side says so."""
     if match := _THAT_AFTER.match(right):
@@ -128,6 +167,10 @@ def relation(left: str, right: str) -> tuple[Kind, int, int]:
         return "value", len(left), 0
     if exact := _EXACT_AFTER.match(right):
         return "value", len(left), exact.end()
+    if match := _LOWERED.search(left):
+        return "most", match.start(), 0
+    if (cut := _end_of_conditional_most(left, right)) is not None:
+        return "most", len(left), cut
     if match := _STOPS_SHORT.search(left):
         return (
             ("least" if _NOT_STOPPING.search(left[: match.start()]) else "most"),
@@ -143,7 +186,8 @@ def relation(left: str, right: str) -> tuple[Kind, int, int]:
                 (m.end() for m in re.finditer(r"[.;:,]\s|\bso\b|\bbut\b", left[: match.start()])),
                 default=0,
             )
-            denial = list(NOT.finditer(left, clause_start, match.end())) or list(
+            said = _UNCONCERNED.sub(lambda m: " " * len(m.group()), left)
+            denial = list(NOT.finditer(said, clause_start, match.end())) or list(
                 _IF.finditer(left, clause_start, match.end())
             )
             stated = _HARMED if pattern is _ABOVE else _SLIPPING

@@ -14,7 +14,7 @@ from policies.instructions.quantities.tolerances import TOLERANCE, band_of
 _SIGNED = (
     rf"(?:(?<![\w.])(?:-|minus |negative )\s?)?(?:{NUMBER}|infinite|infinity|unlimited|inf|nan)"
 )
-_LINK = r"\s*(?:-|–|—|\.\.\.?|…|,|\bup to\b|\bto\b|\bthrough\b|\btill\b|\band\b)\s*"
+_LINK = r"\s*(?:-|–|—|\.\.\.?|…|,|\bup to\b|\bto\b|\bthrough\b|\b(?:un)?till?\b|\band\b)\s*"
 
 _RANGE = re.compile(
     rf"(?P<pre>\b(?:betw\w*|from|within|inside|range(?: of)?|window(?: of)?|in)\s*\[?\s*|\[\s*)?"
@@ -31,6 +31,10 @@ _FORCE_WORD = re.compile(
     r"[:=<>≤≥~])(?: (?:a|an|the|about|around|roughly|exactly|just|only|some))?\s*$"
 )
 _MASS_WORD = re.compile(r"\b(?:weigh\w*|mass|heavy|scale|berry of|fruit of)\b[^.;]*$")
+_BOUNDED = re.compile(
+    r"\s*,?\s*(?:(?:and )?(?:no|not) (?:more|less|over|above|under|below|higher|a gram more)|at (?:the )?(?:very |absolute )?(?:most|least)|max\w*|min\w*|tops?|or (?:less|more|under|over))\b(?! weight)"
+)
+"""Behind a mass that stands alone: it bounds a force."""
 _THING = re.compile(
     r"\s*-?\s*(?:heavy )?(?:\w+ )?(?:berry|berries|strawberry|fruit|one|piece|object|thing|specimen|heavy|in weight)\b"
 )
@@ -76,6 +80,8 @@ def _is_force(match: re.Match[str], text: str) -> bool:
     left, right = text[: match.start()], text[match.end() :]
     if not left and re.fullmatch(r"(?:,? please)?[ .!]*", right):
         return True  # nothing else is said
+    if (not left.strip() or left.rstrip().endswith(",")) and _BOUNDED.match(right):
+        return True
     if re.search(r"\b(?:force|press\w*|squeez\w*|push\w*)\b.*\bweight of\s*$", left):
         return True
     return (

@@ -57,6 +57,10 @@ def unknown_force(text: str) -> str:
         digits = malformed["a"] or malformed["b"]
         if not re.fullmatch(NUMBER, digits):
             return f"{digits!r} is no number; say it as '1.2 N'"
+    if match := re.search(
+        rf"(?<![\w.,])(?:[1-9] ?(?:\. | [.,])|(?<=with )[1-9], )\d+\s*(?:{UNIT})\b", text
+    ):
+        return f"{match[0]!r} is no number; say it as '1.2 N'"
     if match := re.search(rf"\d(?:[.,]\d+)?e[+-]?\d{{5,}}\s*(?:{UNIT})\b", text):
         return f"{match[0]!r} is no force; say it as '1.2 N'"
     if match := _FORMULA.search(text):
