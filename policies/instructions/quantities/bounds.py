@@ -41,6 +41,7 @@ _PLAIN: tuple[tuple[str, str], ...] = (
     (rf"(\b(?:not|never|no|avoid\w*|without)\b[^.;,#\d]*?\b{_LESS} {_ONE},? (?:or|and)) (?={_SHORT_WORDS}{_MORE} )", r"\1 not "),
     (rf"(\b(?:not|never|no|avoid\w*|without)\b[^.;,#\d]*?\b{_MORE} {_ONE},? or) (?={_SHORT_WORDS}{_LESS} )", r"\1 not "),
     (rf"{_ONE},? but (?:a (?:bit|little|touch) |slightly |rather )?(?:softer|gentler|lighter|less|lower)\b(?! than)", r"less than \g<one>"),
+    (rf"{_ONE},? (?:minus|less) (?:an?|some) (?:\w+ )?(?:bit|little|hair|touch|tad|smidge\w*)\b", r"less than \g<one>"),
 )  # fmt: skip
 
 _THAN = re.compile(

@@ -7,7 +7,7 @@ from typing import Literal
 
 from policies.instructions.english.denials import NO_CASE
 from policies.instructions.quantities.force import MARK, Force, Kind
-from policies.instructions.quantities.outcomes import AGAIN, Outcome, outcome
+from policies.instructions.quantities.outcomes import EarlierGrip, is_again, outcome
 from policies.instructions.quantities.relations import NOT, relation
 from policies.instructions.quantities.spans import force_spans
 
@@ -16,7 +16,7 @@ _DROPPED = re.compile(
 )
 _NOT_WITH = re.compile(
     rf"\b(?<!why )(?<!why do )(?:{NO_CASE}|(?<!if )not(?! you (?:just |please )?(?:use|hold|keep|grip|grasp|take|try|go|apply)\b)|never|no|avoid\w*|refrain from)"
-    r"(?: (?:ever|want|like|dare|you|to|hold|keep|grip|grasp|pinch|pick|take|lift|set|go|apply|use|using|it|this|that|the|"
+    r"(?: (?:ever|true|correct|want|like|dare|you|to|hold|keep|grip|grasp|pinch|pick|take|lift|set|go|apply|use|using|it|this|that|the|"
     r"(?:straw ?)?berry|fruit|one|at|with|a|force|of|for|exactly|about|around|in|within|between|from))*\s*$"
 )
 """Before a force: it is not to be used."""
@@ -53,8 +53,8 @@ def read_forces(text: str) -> tuple[list[Force], str, str]:
         left, right = text[end:start], text[stop:]
         words = text[start:stop].strip()
         said = outcome(f"{left.rstrip()} at" if _WITHIN.match(words) else left, right)
-        if said is None and became and AGAIN.fullmatch(left):
-            said = Outcome(kind=became, left_cut=len(left), right_cut=0)
+        if said is None and became and is_again(left, right):
+            said = EarlierGrip(kind=became, left_cut=len(left), right_cut=0)
         became = said.kind if said and said.kind != "failed" else None
         if said:
             words = f"{left[said.left_cut :]}{words}{right[: said.right_cut]}".strip(" ,:")

@@ -13,7 +13,7 @@ from typing import Literal
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Outcome:
+class EarlierGrip:
     """What a text says became of one force.
 
     Attributes:
@@ -73,6 +73,14 @@ _STANDS = re.compile(
     rf"\b(?:surviv(?:es|ed?)|withst(?:ands?|ood)|tolerat(?:es|ed?)|endur(?:es|ed)|(?:it|berry|fruit|berries|this|that|these|they|one|skin|sample|specimen)(?: \w+ this)? (?:can|could) (?:just |only |easily |probably |barely )?(?:take|stand|bear|handle|resist)|(?:gripper|sensor|robot|arm|fingers?|hand|it) (?:is |are )?(?:rated|specified|certified) (?:for|to|at)|(?:gripper|robot|arm|fingers?|hand|motors?) (?:can|could) (?:do|reach|deliver|apply|produce|exert|manage|go (?:up )?to))(?: up to)?{_ROUGHLY}\s*$"
 )
 
+_NEVER_HURT = re.compile(
+    rf"\b(?:not|never|nothing|none|no)\b[^.;,#]{{0,40}}?\b(?:{_HURT}|bruis\w*|burst|crack|break|crush|squash|damage|dent|tear|split|pop)\b[^.;,#]{{0,15}}? (?:until|till|before|below|under|less than|up to)(?: (?:you|it|we|i|the force) (?:reach|reaches|hit|hits|get to|gets to))?{_ROUGHLY}\s*$"
+)
+_NEVER_SLIPPED = re.compile(
+    rf"\b(?:not|never|nothing|none|no)\b[^.;,#]{{0,40}}?\b(?:{_SLIPPED}|slip|slide|fall|drop)\b[^.;,#]{{0,15}}? (?:above|over|beyond|more than|from){_ROUGHLY}\s*$"
+)
+"""'It never bursts below 2 N', 'it does not slip above 0.5 N': the force is the end of what is sure."""
+
 _SUBJECT = r"(?:it|they|this|that|he|she|we|i|you|(?:the|my|our|this|that|one|some|another|last|every|all|its|a) (?:(?!not\b|no\b)\w+ ){0,2}?(?!not\b|no\b)\w+|berr(?:y|ies)|strawberr(?:y|ies)|fruits?|samples?|specimens?|skin|juice)"
 _AUX = rf"(?:(?:is|was|were|are|has|have|had|got|gets|did|does|been|be|being|keeps|kept|would|will|could|might|may|can|used|applied|tried|force|of force|grip|pressure|remained|stayed|intact (?:and|but)|whole (?:and|but)|undamaged (?:and|but)|{_ADVERB})\b ?)*"
 _LINK = r"(?P<link>(?:\s*(?:,|;|:|\(|–|—|-|->|=>|→|=|\.{3}|…|\.(?= ))\s*|\s+)(?:(?:and now|and|but|so|then|where|which|that|yet|when(?= (?:it|the \w+) \w+(?:ed|d)\b)|when(?= (?:it|the \w+) (?:fell|slid|broke|split|burst|tore)\b))\s+)*)"
@@ -91,7 +99,7 @@ _SHORT = re.compile(
     rf"|{_OF_FORCE}(?:will|would|did|does|do|can|could|has|have|had) (?:not|never) (?:{_ADVERB} )*(?:hold|held|keep|kept|lift(?:ed)?|grip(?:ped)?|carry|carried|do|done|cut|suffice|be enough|been enough|be sufficient)\b(?: (?:it|them|up|the \w+))*"
 )
 _FAR = re.compile(
-    rf"{_OF_FORCE}(?:{_BEEN} )?(?:{_ADVERB} )*(?:(?:far |way |clearly |just |a (?:bit|little|touch|tad|lot) )?too? (?:much|hard|high|strong|tight|firm|heavy|rough|great)|a (?:bit|little|touch|tad|lot) (?:too )?much|fatal|lethal|deadly|(?:more|harder) than (?:it|they|the \w+|i) (?:can|could|would|will|wants?|wanted|likes?|liked)(?: \w+)?)\b"
+    rf"{_OF_FORCE}(?:{_BEEN} )?(?:{_ADVERB} )*(?:(?:far |way |clearly |just |a (?:bit|little|touch|tad|lot) )?too? (?:much|hard|high|strong|tight|firm|heavy|rough|great)|a (?:bit|little|touch|tad|lot) (?:too )?much|fatal|lethal|deadly|(?:simply |just |pure |total )*(?:insane|crazy|mad(?:ness)?|stupid|absurd|brutal|murder|reckless|nuts|insanity)|(?:more|harder) than (?:it|they|the \w+|i) (?:can|could|would|will|wants?|wanted|likes?|liked)(?: \w+)?)\b"
 )
 _HARMLESS = re.compile(
     r"\s*(?:did|does|do|has|have|had|will|would|can|could) (?:not|never) (?:\w+ly |even |yet )*(?:bruis|crush|brea?k|broken|crack|burst|damag|hurt|harm|mark|dent|squash|split|destroy|ruin|tear|torn|kill)\w*(?: (?:it|them|the \w+))?"
@@ -144,7 +152,7 @@ _FORCE_FELL = re.compile(
 _CLAUSE = re.compile(r"[.;:!?]\s|,\s|\b(?:but|so|and)\b")
 
 
-def outcome(left: str, right: str) -> Outcome | None:
+def outcome(left: str, right: str) -> EarlierGrip | None:
     """What became of the grip with a force; None where a text says nothing of it.
 
     Args:
@@ -154,25 +162,32 @@ def outcome(left: str, right: str) -> Outcome | None:
     for pattern, is_harm in ((_THRESHOLD, True), (_HURT_AT, True), (_SLIPPED_AT, False)):
         match = pattern.search(left)
         if match and _is_told(left[: match.start()], match[0], is_harm=is_harm):
-            return Outcome(kind="most" if is_harm else "least", left_cut=match.start(), right_cut=0)
+            return EarlierGrip(
+                kind="most" if is_harm else "least", left_cut=match.start(), right_cut=0
+            )
+    for pattern, is_harm in ((_NEVER_HURT, True), (_NEVER_SLIPPED, False)):
+        if match := pattern.search(left):
+            return EarlierGrip(
+                kind="most" if is_harm else "least", left_cut=match.start(), right_cut=0
+            )
     if match := _STANDS.search(left):
-        return Outcome(kind="most", left_cut=match.start(), right_cut=0)
+        return EarlierGrip(kind="most", left_cut=match.start(), right_cut=0)
     if _bounds(left):
         return None  # 'with less than 0.5 N it falls'
     clause = _CLAUSE.split(left)[-1]
     if _SUPPOSES.search(clause) and not _IT_HURT.match(right):
         return None
     if (match := _HARMLESS.match(right)) and not _ORDER.search(left):
-        return Outcome(kind="most", left_cut=len(left), right_cut=match.end())
+        return EarlierGrip(kind="most", left_cut=len(left), right_cut=match.end())
     for pattern, kind in _VERDICTS:
         if match := pattern.match(right):
-            return Outcome(kind=kind, left_cut=len(left), right_cut=match.end())
+            return EarlierGrip(kind=kind, left_cut=len(left), right_cut=match.end())
     for pattern, kind in _EVENTS:
         match = pattern.match(right)
         if match is None or _OF_ANOTHER.match(right[match.end() :]):
             continue
         if _is_of_it(left, match["link"], is_harm=kind == "most"):
-            return Outcome(kind=kind, left_cut=len(left), right_cut=match.end())
+            return EarlierGrip(kind=kind, left_cut=len(left), right_cut=match.end())
     return None
 
 
@@ -207,7 +222,12 @@ def _bounds(left: str) -> bool:
     return _BOUND.search(left) is not None
 
 
-AGAIN = re.compile(
-    r"\s*,?\s*(?:(?:and|or|as well as|nor|then)\s+)?(?:(?:also|again|even|still|then|already)\s+)*(?:at|with|using)?\s*"
+_AGAIN = re.compile(
+    r"\s*,?\s*(?:(?:and|or|as well as|nor)\s+)(?:(?:also|again|even|still|then|already)\s+)*(?:at|with|using)?\s*"
 )
-"""Between two forces: what became of the first counts for the second ('at 0.5 N and at 0.6 N')."""
+_ENDS = re.compile(r"\s*(?:$|[.;,!?)]|(?:too|again|as well|yesterday|last|already|before)\b)")
+
+
+def is_again(left: str, right: str) -> bool:
+    """Whether the outcome of a force is that of the next too ('at 0.5 N and at 0.6 N')."""
+    return bool(_AGAIN.fullmatch(left) and _ENDS.match(right))

@@ -10,7 +10,7 @@ _FIRMER = r"(?:harder|firmer|tighter|stronger|heavier|larger|bigger|greater|high
 _SOFTER = r"(?:softer|gentler|lighter|weaker|looser|lower|smaller|fewer)"
 _ABOVE = re.compile(
     rf"\b(?:over|above|beyond|past|exceed(?:s|ed|ing)?|surpass\w*|in excess of|north of|upwards? of|"
-    rf"pass(?:es|ing)?|top(?:s|ping)?|cross(?:es|ing)?|overshoot\w*|overstep\w*|(?:any |a \w+ |\w+ )?more(?: \w+)? than|{_FIRMER}(?: \w+)? than(?: you would)?(?: with| at)?)"
+    rf"pass(?:es|ing)?|top(?:s|ping)?|cross(?:es|ing)?|overshoot\w*|overstep\w*|(?:any |a \w+ |\w+ )?more(?: \w+)? than(?: (?:you|i|we) (?:would|do|did)(?: (?:hold|press|squeeze|use|with|at|for|on))*)?|{_FIRMER}(?: \w+)? than(?: you would)?(?: with| at)?)"
     r"(?: the| a| of)?\s*$|>\s*$"
 )
 _BELOW = re.compile(
@@ -24,7 +24,7 @@ _MOST = re.compile(
     r"\blimit(?:s|ed|ing)?(?: \w+){0,3}?(?: to| of| at| is|:| =|=)?|"
     r"\bcap(?:ped|ping)?(?: \w+){0,3}?(?: at| to| of| is|:| =|=)?|\bceiling(?: of| is| at|:| =|=)?|"
     r"\bupper (?:\w+ )?(?:limit|bound|end)(?: \w+){0,2}?(?: of| is| at|:| =|=)?|\bpeak(?: \w+){0,2}?(?: of| is| at|:| =|=)?|"
-    r"<=|≤|=<|\bnot to exceed|\bat (?:the )?worst|\bworst case|\bwithin|\bbounded (?:above )?(?:by|at)|\b(?:not|never)(?: let it)? (?:go|push|squeeze|press)(?: \w{1,4})?|\b(?:top|max|peak|level)(?:p?ing|s|p?ed)?(?: \w+)?(?: out)? at|\b(?:restrict|confin|constrain|throttl)\w*(?: \w+){0,3}? (?:to|at|by)|\b(?:may|can|could|might)(?: only| just| at most)? (?:be (?:raised|increased)|rise|go|climb|increase|grow|build|reach|extend)(?: up)?(?: to)?|\b(?:not|never|without|avoid\w*)(?: (?:ever|let|the|force|it|grip|even|quite|to|be|going|you|allow\w*|pressure|have|want|go|come|rise)){0,5} (?:reach(?:es|ing)?|hit(?:s|ting)?|get(?:s|ting)? (?:up )?to|attain\w*|ris(?:e|es|ing) to|climb\w* to)|\bno more than|\bnowhere near|\b(?:allow(?:ed)?|permit(?:ted)?)(?: (?:up )?to(?: (?:use|reach|rise to|climb to|go(?: up)? to))?)?|"
+    r"<=|≤|=<|\bnot to exceed|\bat (?:the )?worst|\bworst case|\bwithin|\bbounded (?:above )?(?:by|at)|\b(?:not|never)(?: let it)? (?:go|push|squeeze|press)(?: \w{1,4})?|\b(?:top|max|peak|level)(?:p?ing|s|p?ed)?(?: \w+)?(?: out)? at|\b(?:restrict|confin|constrain|throttl)\w*(?: \w+){0,3}? (?:to|at|by)|\b(?:may|can|could|might)(?: only| just| at most)? (?:be (?:raised|increased)|rise|go|climb|increase|grow|build|reach|extend)(?: up)?(?: to)?|\b(?:not|never|without|avoid\w*)(?: (?:ever|let|the|force|it|grip|even|quite|to|be|going|you|allow\w*|pressure|have|want|go|come|rise)){0,5} (?:reach(?:es|ing)?|hit(?:s|ting)?|get(?:s|ting)? (?:up )?to|attain\w*|ris(?:e|es|ing) to|climb\w* to|go(?:ing|es)? (?:up |all the way )?to)|\b(?:budget|allowance)(?: of| is|:)?|\bno more than|\bnowhere near|\b(?:allow(?:ed)?|permit(?:ted)?)(?: (?:up )?to(?: (?:use|reach|rise to|climb to|go(?: up)? to))?)?|"
     r"\b(?:ease|eases|back|let)(?: \w+){0,2} (?:once|when|as soon as|at)(?: (?:you|it|we))?(?: (?:feel|reach|hit|see|measure|get to|read)\w*)?|\bfar (?:away )?from|\b(?:not|never)(?: (?:even|anywhere|get|go|come|be))* (?:close|near)(?: to)?|\bf[_ ]?max\s*[:=]?)"
     r"(?: (?:about|around|roughly))?\s*$"
 )
@@ -55,7 +55,7 @@ _MOST_AFTER = re.compile(
     r"(?:is|as|being)(?: (?!lower)\w+){0,3} (?:limit|max(?:imum)?|ceiling|cap|most|end of the line|last word)\b|(?:limit|ceiling|cap)\b(?!(?: of| is|:| =)? ?\d)|"
     r"(?:(?:an?|the|my|your|as|is|as an?|as the) )*upper (?:\w+ )?(?:bound|limit|end)\b|"
     rf"(?:,? ?(?:and|but) (?:it|that|this) )?(?:{_BEEN} )?(?:already |way |far |just |clearly |evidently )*too (?:much|hard|firm|high|strong|tight|rough|heavy|great)|and under\b|"
-    rf"at the (?:outside|utmost|very top)\b|{_BEEN} (?:already |strictly |absolutely |still |simply )*{_UNWANTED}|"
+    rf"at the (?:outside|utmost|very top)\b|to (?:play|work) with\b|(?:is|as) (?:the|my|our|a) (?:\w+ )?(?:roof|lid|wall|red line|end of it)\b|{_BEEN} (?:already |strictly |absolutely |still |simply )*{_UNWANTED}|"
     rf"(?<!, )(?:already |surely |will |would |can |could |may |might |has |had |have )*{_HARMS}(?= (?:it|the|this|that|my|our|one|some|berr\w+|strawberr\w+|fruits?|a|easily|already|them)\b|\s*(?:$|[.;!,]))|"
     rf"(?:will|would|is where \w+|is when \w+) (?:already |surely )?{_HARMS}|(?:it|they|the (?:(?:last|previous|first|other) )?\w+) (?:already |surely )?{_HARMS})"
     + _OTHERS
@@ -122,7 +122,13 @@ NOT = re.compile(
     r"\b(?:not|no|never|none|nothing|nowhere|without|nor|neither|avoid\w*|refrain|refuse|forbid\w*|stop|"
     r"prevent\w*|keep(?: \w+){0,4} from|rather than|hardly|nobody)\b"
 )
-_IF = re.compile(r"(?<!appreciate it )(?<!like it )(?<!good )\bif (?:you|it|the \w+)\b")
+_IF = re.compile(
+    r"\b(?:if|should) (?:you|it|we|the \w+)\b(?! (?:would |could |can |just |only |always |never )*(?:stay|stays|stayed|keep|keeps|kept|remain\w*|hold|held|use|used|limit\w*|were|was kept|is kept)\b)"
+)
+_WISHED = re.compile(
+    r"\b(?:prefer|appreciate|like|love|wish|happ\w+|glad|nicer?|great|good|best|better|ideal|grateful|thankful|pleased|safer|safest|kind|lovely|fine|ok|okay|cool|perfect|helpful|wonderful|sure)(?: it| for me| of you)? if\b"
+)
+"""'I would prefer it if it went below 1 N' supposes nothing."""
 
 _RISE = re.compile(
     r"\b(?:bring|take|raise|get|ramp|crank|turn|increase|dial|build|work|go)(?: (?:it|this|that|the \w+))?\s*$"
@@ -145,7 +151,7 @@ _TOO_MUCH = re.compile(
     rf"[^.;#]{{0,20}}\b(?:too much|out of|no go|not ok\w*|pointless|useless|no (?:use|sense|point|need|good)|wast\w+|{_UNWANTED}|(?:not|never) (?:be )?(?:needed|necessary|required|called for|wise|good|wanted|used)|{_HARMS})"
 )
 _TOO_LITTLE = re.compile(
-    rf"[^.;#]{{0,20}}\b(?:will not do|not (?:allowed|acceptable|permitted|ok\w*|on)|forbidden|banned|not (?:enough|sufficient)|too little|insufficient|useless|will not hold|no good|not acceptable|{_SLIPS}|let it)"
+    rf"[^.;#]{{0,20}}\b(?:will not do|not (?:allowed|acceptable|permitted|ok\w*|on)|forbidden|banned|not (?:enough|sufficient)|too little|insufficient|useless|will not hold|no good|not acceptable|{_SLIPS}|let it|(?:gets?|is|becomes?|feels) (?:loose|shaky|unstable|slippery))"
 )
 
 
@@ -187,8 +193,9 @@ def relation(left: str, right: str) -> tuple[Kind, int, int]:
                 default=0,
             )
             said = _UNCONCERNED.sub(lambda m: " " * len(m.group()), left)
+            said = _WISHED.sub(lambda m: " " * len(m.group()), said)
             denial = list(NOT.finditer(said, clause_start, match.end())) or list(
-                _IF.finditer(left, clause_start, match.end())
+                _IF.finditer(said, clause_start, match.end())
             )
             stated = _HARMED if pattern is _ABOVE else _SLIPPING
             is_denied = len(denial) % 2 == 1 or bool(harm.match(right)) or bool(stated.search(left))

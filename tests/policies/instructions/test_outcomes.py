@@ -15,7 +15,17 @@ SLIPPED = (
     "we used 0.5 N and it {slip}",
     "squeeze more, it {slip} at 0.5 N",
 )
-SLIPS = ("slips", "slipped", "has slipped", "was slipping", "would slip", "fell", "slid away", "got away", "came loose")  # fmt: skip
+SLIPS = (
+    "slips",
+    "slipped",
+    "has slipped",
+    "was slipping",
+    "would slip",
+    "fell",
+    "slid away",
+    "got away",
+    "came loose",
+)
 HURT = (
     "it {hurt} at 2 N",
     "with 2 N it {hurt}",
@@ -24,7 +34,17 @@ HURT = (
     "it {hurt} when we applied 2 N",
     "it {hurt} after 2 N",
 )
-HURTS = ("cracks", "cracked", "has cracked", "was crushed", "got bruised", "would burst", "came apart", "left juice and marks", "deformed")  # fmt: skip
+HURTS = (
+    "cracks",
+    "cracked",
+    "has cracked",
+    "was crushed",
+    "got bruised",
+    "would burst",
+    "came apart",
+    "left juice and marks",
+    "deformed",
+)
 
 
 def test_a_force_at_which_it_slipped_is_a_least_in_every_tense():
@@ -82,7 +102,9 @@ def test_a_force_that_only_did_not_work_is_not_used():
     assert "what not to hold with (0.5 n did not work)" in refused
 
 
-@pytest.mark.parametrize("said", ["it cracked at {} N", "the gripper can do {} N", "it can take {} N"])  # fmt: skip
+@pytest.mark.parametrize(
+    "said", ["it cracked at {} N", "the gripper can do {} N", "it can take {} N"]
+)
 def test_what_is_told_raises_no_limit(said):
     plain, none = (read_contract(text, terms(), {}) for text in ("hold it with 1 N", "hold it"))
     told = read_contract(f"hold it with 1 N, {said.format(9)}", terms(), {})
