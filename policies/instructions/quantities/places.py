@@ -9,7 +9,7 @@ from policies.instructions.quantities.force_units import NUMBER, number
 _LENGTH = re.compile(rf"(?P<a>{NUMBER})\s*(?P<u>mm|millimet\w+|µm|μm|um|microns?|micromet\w+)\b")
 _PAD = r"(?:pads?|gels?|sensors?|sensing area|finger ?(?:tip|pad)s?)"
 _SIDE = r"(?:left|right|top|bottom|upper|lower|middle|cent(?:re|er)|edge|corner|tip|base|end)"
-PLACE = re.compile(
+_PLACE = re.compile(
     rf"\b{_SIDE}(?: \w+){{0,2}}? (?:of|on) (?:the |your |each |both )?{_PAD}\b|"
     rf"\b{_SIDE}[- ](?:\w+ ){{0,2}}?{_PAD}\b|"
     r"\b(?:off-? ?cent(?:re|er)|cent(?:red|ered|ring|ering|rally)|cent(?:re|er) (?:it|the contact))\b(?:[^.;#]{0,20}\d ?(?:mm|millimet\w+))?|"
@@ -22,6 +22,10 @@ AREA = re.compile(
     rf"(?P<a>{NUMBER})\s*(?:%|percent|per cent) (?:of )?(?:the )?(?:\w+ )?(?:pad|area|gel|sensor)"
 )
 
+_MOVING = re.compile(
+    r"\b(?:mov|shift|carr|bring|slid|slip|lift|push|drag|transport|put|travel|drop|fall|fell|turn|rais)\w*\b[^.;,]*$"
+)
+"""Before a length: the object is to be moved so far, or has moved."""
 _CLAUSE_END = re.compile(r"[,;.]\s|\band\b")
 _SLIP = re.compile(r"\b(?:slip|slid|shift|creep|mov(?:e|ement) (?:by )?(?:more|at most))")
 _DEEP = re.compile(r"\b(?:deep|depth|indent|into the gel|sink)")
@@ -44,3 +48,11 @@ def read_lengths(text: str) -> tuple[float | None, float | None]:
                 depth = mm
                 break
     return slip, depth
+
+
+def place_words(text: str) -> str:
+    """Words of a text about the place on the pad, which are not read; '' for none."""
+    for match in _PLACE.finditer(text):
+        if not (match[0][0].isdigit() and _MOVING.search(text[: match.start()])):
+            return match[0]
+    return ""

@@ -16,7 +16,7 @@ from policies.instructions.quantities.force import Force
 from policies.instructions.quantities.force_units import NUMBER, UNIT, number
 from policies.instructions.quantities.forces import read_forces
 from policies.instructions.quantities.numerals import in_digits
-from policies.instructions.quantities.places import AREA, PLACE, read_lengths
+from policies.instructions.quantities.places import AREA, place_words, read_lengths
 from policies.instructions.quantities.tolerances import with_plain_tolerances, without_lone
 from policies.instructions.quantities.unknown_units import unknown_force
 
@@ -100,7 +100,6 @@ def read_quantities(text: str) -> Quantities:
         denied = denied or denied_factor(before_factor, factor, factor_words)
     is_alone = factor is None and area is None
     percentage = _PERCENT_OF_NOTHING.search(text) if is_alone else None
-    place = PLACE.search(text)
     return Quantities(
         forces=tuple(forces),
         delta_n=delta_n,
@@ -113,7 +112,7 @@ def read_quantities(text: str) -> Quantities:
         unitless=unitless,
         unread=unread,
         percentage=lone if percentage is None else percentage[1],
-        place="" if place is None else place[0],
+        place=place_words(text),
         denied=denied,
         rest=text,
     )
