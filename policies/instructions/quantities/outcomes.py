@@ -42,7 +42,7 @@ _APART = r"(?:apart|to (?:bits|pieces|shreds)|in (?:half|two|pieces))"
 _HURT = (
     r"(?:(?:broken?|breaks?|breaking)(?! (?:free|loose|away|out)\b)|torn?|tore|tears|burst(?:s|ed|ing)?|split(?:s|ting|ted)?|crack(?:s|ed|ing)?|crush(?:es|ed|ing)?|squash(?:es|ed|ing)?|squish(?:es|ed)?|smash(?:es|ed)?|bruis(?:es|ed?|ing)|dent(?:s|ed|ing)?|damag(?:es|ed?|ing)|"
     r"mark(?:s|ed)|deform(?:s|ed|ation)?|indent(?:ed|ations?)|ruptur(?:es|ed?|ing)|punctur(?:es|ed)|pierc(?:es|ed)|shatter(?:s|ed)|fractur(?:es|ed?)|collaps(?:es|ed?)|flatten(?:s|ed)|pulp(?:s|ed)|mashed|mush|jam|juice|leak(?:s|ed|ing)?|ooz(?:es|ed|ing)|bled|bleeds|"
-    r"pop(?:s|ped)|snap(?:s|ped)|(?<!grip )(?<!grasp )(?<!hold )fail(?:s|ed)|yield(?:s|ed|ing)|ruin(?:s|ed)?|spoil(?:s|ed|t)?|destroy(?:s|ed)|wreck(?:s|ed)|kill(?:s|ed)|hurts?|injur(?:es|ed|y)|suffer(?:s|ed)|(?:caves?|caved|gives?|gave) (?:in|way)|cut into|"
+    r"pop(?:s|ped)|snap(?:s|ped)|(?<!grip )(?<!grasp )(?<!hold )fail(?:s|ed)(?! to (?:hold|keep|lift|grip|carry|pick)\b)|yield(?:s|ed|ing)|ruin(?:s|ed)?|spoil(?:s|ed|t)?|destroy(?:s|ed)|wreck(?:s|ed)|kill(?:s|ed)|hurts?|injur(?:es|ed|y)|suffer(?:s|ed)|(?:caves?|caved|gives?|gave) (?:in|way)|cut into|"
     rf"(?:fell|falls|fallen|comes?|came|goes|went) {_APART}|(?:left|leaves|leaving|leave|made|makes|showed|shows|got|had|has) (?:\w+ ){{0,3}}?(?:marks?|dents?|bruis\w*|imprints?|indentations?|prints?|damage|cracks?|traces?|scars?|grooves?))"
 )
 _ADVERB = r"(?:(?!hardly|barely|scarcely|rarely)\w+ly|still|just|always|then|soon|again|almost|nearly|also|already|even|sometimes|often|twice|once|right|immediately)"
@@ -70,7 +70,7 @@ _THRESHOLD = re.compile(
     rf"(?: (?!not\b)\w+){{0,3}}?(?: (?:is|was|of|at|being|lies|lay|sits)|:| =)(?: (?:at|near))?{_ROUGHLY}\s*$"
 )
 _STANDS = re.compile(
-    rf"\b(?:surviv(?:es|ed?)|withst(?:ands?|ood)|tolerat(?:es|ed?)|endur(?:es|ed)|(?:it|berry|fruit|berries|this|that|these|they|one|skin|sample|specimen)(?: \w+ this)? (?:can|could) (?:just |only |easily |probably |barely )?(?:take|stand|bear|handle|resist)|(?:gripper|sensor|robot|arm|fingers?|hand|it) (?:is |are )?(?:rated|specified|certified) (?:for|to|at)|(?:gripper|robot|arm|fingers?|hand|motors?) (?:can|could) (?:do|reach|deliver|apply|produce|exert|manage|go (?:up )?to))(?: up to)?{_ROUGHLY}\s*$"
+    rf"\b(?:surviv(?:es|ed?)|withst(?:ands?|ood)|supports?|supported|resists?|resisted|tolerat(?:es|ed?)|endur(?:es|ed)|(?:it|berry|fruit|berries|this|that|these|they|one|skin|sample|specimen)(?: \w+ this)? (?:can|could) (?:just |only |easily |probably |barely )?(?:take|stand|bear|handle|resist)|(?:gripper|sensor|robot|arm|fingers?|hand|it) (?:is |are )?(?:rated|specified|certified) (?:for|to|at)|(?:gripper|robot|arm|fingers?|hand|motors?) (?:can|could) (?:do|reach|deliver|apply|produce|exert|manage|go (?:up )?to))(?: up to)?{_ROUGHLY}\s*$"
 )
 
 _NEVER_HURT = re.compile(
@@ -107,6 +107,7 @@ _HARMLESS = re.compile(
 """'2 N did not bruise it' asks for no 2 N, and says nothing of more."""
 _USELESS = re.compile(
     rf"{_OF_FORCE}(?:did|does|do|has|have|had|will|would) (?:not|never) (?:{_ADVERB} )*(?:work|help|succeed|worked|helped|succeeded|go well|end well)(?: (?:out|well))?\b"
+    rf"|{_OF_FORCE}(?:has |had |it )?failed(?= *(?:$|[.,;!?]))"
     rf"|{_OF_FORCE}(?:was|were|is|has been) (?:not (?:ok(?:ay)?|good|right|fine|successful)|wrong|bad|a (?:failure|mistake|disaster)|unsuccessful)\b(?! for)"
 )
 
