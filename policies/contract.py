@@ -152,6 +152,12 @@ def _take_words(draft: _Draft, request: Request, task: TaskTerms, *, is_own: boo
         raise RefusedError(
             f"it says what not to hold with ({numbers.denied}), and names no other force"
         )
+    is_named = any(force.kind == "value" for force in numbers.forces)
+    if is_named and numbers.factor is not None:
+        raise RefusedError(
+            f"it names {words_of(numbers.forces)} and a change ({numbers.factor_words.strip()}); "
+            "say the force that is meant, for example '0.8 N'"
+        )
     _take_lengths(draft, numbers)
     if numbers.place:
         draft.assumed.append(

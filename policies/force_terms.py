@@ -108,10 +108,13 @@ def named_terms(forces: Sequence[Force], manner: Manner, task: ForceTerms) -> Fo
         if task.needs:  # the top of its band is for objects that are larger than most
             high_n = min(high_n, SPAN * low_n)
         band = Band(low=low_n, high=high_n if high_n > 1.4 * low_n else low_n * math.sqrt(SPAN))
-    is_range = least > 0 and most < math.inf
+    is_told = all(f.is_told for f in forces if f.kind != "value")
+    is_range = least > 0 and most < math.inf and not is_told
     needs = "" if values or is_range else task.needs  # named newtons are the target themselves
     if most < math.inf:
         limit_n = ROUNDING * most
+        if all(f.is_told for f in forces if f.kind == "most"):  # 'it cracked at 6 N' raises none
+            limit_n = min(limit_n, default_limit_n(band) if values else task.limit_n)
         band = Band(low=min(band.low, limit_n), high=min(band.high, limit_n))
         return ForceTerms(force_n=band, limit_n=limit_n, needs=needs)
     limit_n = default_limit_n(band)

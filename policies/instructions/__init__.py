@@ -3,5 +3,5 @@
 Plain rules over English words, without a model: the same words mean the same in every episode. Not
 here: what becomes of it (``policies.contract``).
 
-May import: nothing of ours.
+May import: policies.instructions.english, policies.instructions.quantities.
 """

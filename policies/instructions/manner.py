@@ -6,9 +6,9 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
-from policies.instructions import words
-from policies.instructions.denials import FORBIDDEN_AFTER
-from policies.instructions.text import CLAUSE, sentences
+from policies.instructions.english import words
+from policies.instructions.english.denials import FORBIDDEN_AFTER
+from policies.instructions.english.text import CLAUSE, sentences
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

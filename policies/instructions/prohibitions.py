@@ -9,11 +9,17 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from policies.instructions import words
-from policies.instructions.denials import FORBIDDEN, FORBIDDEN_AFTER, NO_CASE, REFUSES, is_denied
+from policies.instructions.english import words
+from policies.instructions.english.denials import (
+    FORBIDDEN,
+    FORBIDDEN_AFTER,
+    NO_CASE,
+    REFUSES,
+    is_denied,
+)
+from policies.instructions.english.text import CLAUSE
 from policies.instructions.manner import has_manner
 from policies.instructions.quantities import MARK
-from policies.instructions.text import CLAUSE
 
 _ANY_MORE = re.compile(r"\b(gripped|grasped|held|touched|picked(?: up)?|lifted) any ?more\b")
 

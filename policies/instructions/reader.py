@@ -5,12 +5,12 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
-from policies.instructions import words
+from policies.instructions.english import words
+from policies.instructions.english.spelling import spelled
+from policies.instructions.english.text import plain, sentences
 from policies.instructions.manner import Manner, has_manner, read_manner
 from policies.instructions.quantities import Quantities, read_quantities
 from policies.instructions.refusal import refusal_of
-from policies.instructions.spelling import spelled
-from policies.instructions.text import plain, sentences
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import re
 
-from policies.instructions import words
-from policies.instructions.denials import is_denied
+from policies.instructions.english import words
+from policies.instructions.english.denials import is_denied
+from policies.instructions.english.text import CLAUSE, sentences
 from policies.instructions.manner import has_manner, without_neutral
 from policies.instructions.prohibitions import prohibition
 from policies.instructions.quantities import MARK
-from policies.instructions.text import CLAUSE, sentences
 
 _MODAL = re.compile(
     r"\b(?:it|this|that|berry|fruit|skin|they|one|strawberry|force|pressure|grip|or|else|i|we|fingers|newtons|#|otherwise|which|these|those|berries|fruits|easily|to easily|"

@@ -200,6 +200,9 @@ def test_a_tolerance_that_can_not_be_kept_is_widened_or_refused_and_never_silent
         "Keep the contact at the left of the pad.",
         "Hold it centred within 1 mm.",
         "Place the contact 3 mm to the left.",
+        "Hold it at 2 mm to the left.",
+        "Take it with 0.8 N, 2 mm to the left.",
+        "Grip it near the stem with 0.8 N.",
     ],
 )
 def test_a_place_in_words_is_said_to_be_not_read(text):
@@ -208,8 +211,16 @@ def test_a_place_in_words_is_said_to_be_not_read(text):
     assert "is not read: goal.x_mm and goal.y_mm" in held.assumed[0]
 
 
-def test_a_place_of_the_object_is_no_place_on_the_pad():
-    assert read("Grasp the berry on the left and move it 30 mm to the right.").assumed == ()
+@pytest.mark.parametrize(
+    "text",
+    [
+        "Grasp the berry on the left and move it 30 mm to the right.",
+        "It slipped 2 mm to the left, hold it with 0.8 N.",
+        "Hold it with 0.8 N.",
+    ],
+)
+def test_a_place_of_the_object_is_no_place_on_the_pad(text):
+    assert read(text).assumed == ()
 
 
 def test_no_configuration_goes_beyond_the_gripper():

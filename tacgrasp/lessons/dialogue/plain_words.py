@@ -3,7 +3,7 @@
 Lower case, contractions and common misspellings written out, numbers as ``NUMBER``, units apart
 from their numbers, no punctuation. Two questions with the same plain words are the same wording.
 
-Not here: instructions (``policies.instructions.text``), where punctuation carries meaning.
+Not here: instructions (``policies.instructions.english.text``), where punctuation carries meaning.
 """
 
 from __future__ import annotations

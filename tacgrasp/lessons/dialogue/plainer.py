@@ -17,7 +17,7 @@ from __future__ import annotations
 
 import re
 
-from policies.instructions.numerals import in_digits
+from policies.instructions.quantities.numerals import in_digits
 from tacgrasp.lessons.dialogue.turned_comparisons import turned
 
 AUXILIARY = (

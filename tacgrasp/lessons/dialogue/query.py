@@ -34,7 +34,7 @@ from typing import NamedTuple
 
 from cltp.llm.constrained.grammar import Grammar, Option, TextChoice
 from cltp.tactile.states import CLASSES
-from policies.instructions.numerals import in_digits
+from policies.instructions.quantities.numerals import in_digits
 from tacgrasp.lessons.dialogue.conditions import (
     FATES,
     GIVEN,

@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from policies.instructions.numerals import in_digits
+from policies.instructions.quantities.numerals import in_digits
 from tests.policies.instructions.number_words import decimal_in_words, in_words
 
 

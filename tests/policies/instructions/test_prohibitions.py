@@ -32,6 +32,10 @@ OF_A_NOUN = (
     "Gripping must be avoided.",
     "Grasping: forbidden.",
     "The grasp must not be performed.",
+    "The berry is off limits.",
+    "The strawberry is off-limits today, sorry.",
+    "It has been declared off limits.",
+    "This one is out of bounds.",
 )
 ACTIVE = (
     "By no means grip it.",

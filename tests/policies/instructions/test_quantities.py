@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from policies.contract import read_contract
-from policies.instructions.force_units import GRAM_N
+from policies.instructions.quantities.force_units import GRAM_N
 from policies.instructions.reader import read_request
 from tests.fakes.contracts import terms
 from tests.policies.instructions.number_words import decimal_in_words, in_words

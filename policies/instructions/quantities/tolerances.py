@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 
-from policies.instructions.force_units import ALONE, NUMBER, UNIT, in_newtons, number
+from policies.instructions.quantities.force_units import ALONE, NUMBER, UNIT, in_newtons, number
 
 _BARE = NUMBER.removeprefix(ALONE)
 _PART = rf"(?:%|percent\b|per cent\b|(?:{UNIT})\b)"

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import re
 
-from policies.instructions.denials import NO_CASE
-from policies.instructions.force_units import LOOSE, NUMBER, UNIT
+from policies.instructions.english.denials import NO_CASE
+from policies.instructions.quantities.force_units import LOOSE, NUMBER, UNIT
 
 _ONE = rf"(?P<one>{NUMBER}(?:\s*-?\s*(?:{UNIT}|{LOOSE})\b)?(?: of (?:grip )?force\b)?)"
 _NOT = rf"(?:not|never|no longer|{NO_CASE})"
@@ -41,17 +41,24 @@ _PLAIN: tuple[tuple[str, str], ...] = (
     (rf"(\b(?:not|never|no|avoid\w*|without)\b[^.;,#\d]*?\b{_LESS} {_ONE},? (?:or|and)) (?={_SHORT_WORDS}{_MORE} )", r"\1 not "),
     (rf"(\b(?:not|never|no|avoid\w*|without)\b[^.;,#\d]*?\b{_MORE} {_ONE},? or) (?={_SHORT_WORDS}{_LESS} )", r"\1 not "),
     (rf"{_ONE},? but (?:a (?:bit|little|touch) |slightly |rather )?(?:softer|gentler|lighter|less|lower)\b(?! than)", r"less than \g<one>"),
+    (rf"{_ONE},? (?:minus|less) (?:an?|some) (?:\w+ )?(?:bit|little|hair|touch|tad|smidge\w*)\b", r"less than \g<one>"),
 )  # fmt: skip
 
 _THAN = re.compile(
-    r"\b(more|less|fewer|greater|higher|lower|harder|softer|firmer|gentler|tighter|lighter|stronger|weaker) (?:then|tan|thn)(?= (?:about |around |roughly |exactly )?[\d.])"
+    r"\b(more|less|fewer|greater|higher|lower|smaller|bigger|larger|harder|softer|firmer|gentler|tighter|lighter|stronger|weaker) (?:then|tan|thn|as|from|(?<!more )like)(?= (?:about |around |roughly |exactly )?[\d.])"
 )
 """'No more then 1 N'."""
 
 
+_FROM = re.compile(
+    r"\b(under|below|beneath|above|over|beyond|exceed) (?:from|of|as|than|to) (?=[\d.])"
+)
+"""'Under from 1 N', as other languages have it."""
+
+
 def with_plain_bounds(text: str) -> str:
     """Write each bound of a plain text, its numbers in digits, with its words before its force."""
-    text = _THAN.sub(r"\1 than", text)
+    text = _FROM.sub(r"\1 ", _THAN.sub(r"\1 than", text))
     for pattern, plainly in _PLAIN:
         text = re.sub(pattern, plainly, text)
     return text

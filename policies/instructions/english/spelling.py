@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from policies.instructions import words
+from policies.instructions.english import words
 
 _TARGETS = [
     "gently",

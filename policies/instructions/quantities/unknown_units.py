@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 from importlib import resources
 
-from policies.instructions.elisions import BEFORE_BOUND, BEFORE_VALUE
-from policies.instructions.force_units import LOOSE, NUMBER, UNIT
+from policies.instructions.quantities.elisions import BEFORE_BOUND, BEFORE_VALUE
+from policies.instructions.quantities.force_units import LOOSE, NUMBER, UNIT
 
 _WORDS = frozenset(
     re.findall(
@@ -57,6 +57,10 @@ def unknown_force(text: str) -> str:
         digits = malformed["a"] or malformed["b"]
         if not re.fullmatch(NUMBER, digits):
             return f"{digits!r} is no number; say it as '1.2 N'"
+    if match := re.search(
+        rf"(?<![\w.,])(?:[1-9] ?(?:\. | [.,])|(?<=with )[1-9], )\d+\s*(?:{UNIT})\b", text
+    ):
+        return f"{match[0]!r} is no number; say it as '1.2 N'"
     if match := re.search(rf"\d(?:[.,]\d+)?e[+-]?\d{{5,}}\s*(?:{UNIT})\b", text):
         return f"{match[0]!r} is no force; say it as '1.2 N'"
     if match := _FORMULA.search(text):

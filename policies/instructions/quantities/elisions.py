@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 
-from policies.instructions.force_units import ALONE, NUMBER, UNIT, in_newtons, number
+from policies.instructions.quantities.force_units import ALONE, NUMBER, UNIT, in_newtons, number
 
 _BARE = NUMBER.removeprefix(ALONE)
 _PERCENT = r"\s*(?:%|percent|per cent)"
@@ -84,8 +84,21 @@ _HALF_RANGES = (
     re.compile(rf"{NUMBER}\s*(?P<u>(?:{UNIT})\b){_LINK}(?P<b>{_BARE}){_AFTER}"),
 )
 
+_ALTERNATIVES = (
+    re.compile(
+        rf"(?P<b>{NUMBER})(?=(?:, {_BARE})*,? (?:or|nor)(?: even| rather| maybe| perhaps| about| else)* {NUMBER}\s*(?P<u>(?:{UNIT})\b))"
+    ),
+    re.compile(
+        rf"{NUMBER}\s*(?P<u>(?:{UNIT})\b),? or(?: even| rather| maybe| perhaps| about| else)* (?P<b>{NUMBER}){_AFTER}"
+    ),
+)
+"""'0.5 or 1 N', '1 N or 0.8'."""
+_CORRECTED = re.compile(
+    rf"\b(?:no(?!\.)|wait|make (?:that|it)|i mean|i meant|correction|scratch that|or rather|better(?: still| yet)?|sorry|actually|otherwise|else)[ ,:.…!-]*(?:(?:i (?:mean|meant|said)|use|make (?:it|that)|only|just|no|wait|rather) )*(?P<a>{NUMBER}){_AFTER}"
+)
+"""'0.5 N, no wait, 0.8'."""
 _ONE_ALONE = re.compile(
-    rf"(?P<before>{NUMBER}\s*(?P<u>(?:{UNIT})\b)(?:{_LINK}|,? (?:and|but) |, )(?:{_BOUND} )?)one(?=\s*(?:$|[.,;:!?)]))"
+    rf"(?P<before>{NUMBER}\s*(?P<u>(?:{UNIT})\b)(?:{_LINK}|,? (?:and|but|or) |, )(?:{_BOUND} )?)one(?=\s*(?:$|[.,;:!?)]))"
 )
 """'Between half a newton and one'."""
 _ON_A_SCALE = re.compile(
@@ -116,13 +129,13 @@ def written_out(text: str) -> tuple[str, str]:
     if re.search(rf"{NUMBER}\s*-?\s*(?:{UNIT})\b", text):
         for half in _HALVES:
             text = half.sub("0.5", text)
-    for pattern in _HALF_RANGES:
+    for pattern in (*_HALF_RANGES, *_ALTERNATIVES):
         while match := pattern.search(text):
             text = f"{text[: match.end('b')]} {match['u']}{text[match.end('b') :]}"
     text = _ONE_ALONE.sub(r"\g<before>1 \g<u>", text)
     on_a_scale = _ON_A_SCALE.search(text)
     unitless = on_a_scale["a"] if on_a_scale else ""
-    for pattern in _BARES:
+    for pattern in (*_BARES, *((_CORRECTED,) if re.search(_ONE, text) else ())):
         at = 0
         while match := pattern.search(text, at):
             at = match.end()

@@ -1,0 +1,127 @@
+"""Forces of a text in their order, with what denies, corrects or reports them."""
+
+from __future__ import annotations
+
+import re
+from typing import Literal
+
+from policies.instructions.english.denials import NO_CASE
+from policies.instructions.quantities.force import MARK, Force, Kind
+from policies.instructions.quantities.outcomes import EarlierGrip, is_again, outcome
+from policies.instructions.quantities.relations import NOT, relation
+from policies.instructions.quantities.spans import force_spans
+
+_DROPPED = re.compile(
+    r"\b(?:(?<!if )not|never|instead of|rather than|forget(?: about)?|isn't|skip|no longer|nor)(?: (?:at|the|with|use|using|to|about|exactly))*\s*$|^\s*,? ?than(?: (?:at|with|use|using))*\s*$"
+)
+_NOT_WITH = re.compile(
+    rf"\b(?<!why )(?<!why do )(?:{NO_CASE}|(?<!if )not(?! you (?:just |please )?(?:use|hold|keep|grip|grasp|take|try|go|apply)\b)|never|no|avoid\w*|refrain from)"
+    r"(?: (?:ever|true|correct|want|like|dare|you|to|hold|keep|grip|grasp|pinch|pick|take|lift|set|go|apply|use|using|it|this|that|the|"
+    r"(?:straw ?)?berry|fruit|one|at|with|a|force|of|for|exactly|about|around|in|within|between|from))*\s*$"
+)
+"""Before a force: it is not to be used."""
+
+_OUTSIDE = re.compile(
+    r"\b(?:outside|out of|beyond|apart from|other than|except(?: for)?|exclud(?:e|es|ing))(?: of)?(?: the)?(?: (?:force )?(?:range|window|band|interval))?(?: of| from| between)?\s*$"
+)
+"""Before a range: it is not to be used."""
+
+_BETWEEN = re.compile(
+    rf"\bbetween(?: (?:the|a|some\w*|about))* {MARK}(?: \w+)? and(?: (?:the|a|about))*\s*$"
+)
+_WITHIN = re.compile(r"(?:between|from|in|within)\b")
+_CORRECTION = re.compile(
+    r"\b(?:no,? wait|wait,? no|make (?:that|it)|i mean|i meant|correction|scratch that|in other words|i\.e\.|meaning|or rather|sorry|actually|(?:or )?better(?: still| yet)?(?=[ ,:]*$))\b[ ,:-]*"
+)
+_CONDITION = re.compile(
+    r"\bif\b.*?(?=\b(?:use|hold|grip|apply|take|go|try|squeeze|press|then)\b)|\bif not\b"
+)
+"""'If it does not slip use 0.5 N': its denial is not that of the force."""
+_PAST = re.compile(
+    r"\b(?:last (?:time|one|run|trial|try|berry)|yesterday|previous(?:ly)?|before|earlier|used to|was|were|had|"
+    r"slipped|slid|crushed|squashed|bruised|dropped|tried|went|did)\b"
+)
+
+
+def read_forces(text: str) -> tuple[list[Force], str, str]:
+    """Forces of a text, words of the one that it only denies, the text with ``MARK`` for each."""
+    denied = ""
+    found: list[tuple[Force, bool]] = []  # a force, and whether it is of the past or denied
+    rest, end = "", 0
+    became: Literal["least", "most"] | None = None  # what the force before is by its outcome
+    for start, stop, ends, within_n in force_spans(text):
+        left, right = text[end:start], text[stop:]
+        words = text[start:stop].strip()
+        said = outcome(f"{left.rstrip()} at" if _WITHIN.match(words) else left, right)
+        if said is None and became and is_again(left, right):
+            said = EarlierGrip(kind=became, left_cut=len(left), right_cut=0)
+        became = said.kind if said and said.kind != "failed" else None
+        if said:
+            words = f"{left[said.left_cut :]}{words}{right[: said.right_cut]}".strip(" ,:")
+            left, stop = left[: said.left_cut], stop + said.right_cut
+            if said.kind == "failed":
+                denied = words
+                found.append((Force(kind="value", value_n=ends[0], words=words), False))
+            else:
+                value_n = max(ends) if said.kind == "least" else min(ends)
+                found.append(
+                    (Force(kind=said.kind, value_n=value_n, words=words, is_told=True), True)
+                )
+        elif found and len(ends) == 1 and _BETWEEN.search(" ".join(f"{rest}{left}".split())):
+            other = found.pop()[0]
+            low, high = sorted((other.value_n, ends[0]))
+            words = f"{other.words} to {words}"
+            found += [
+                (Force(kind="least", value_n=low, words=words), True),
+                (Force(kind="most", value_n=high, words=words), True),
+            ]
+        elif len(ends) == 2:
+            low, high = sorted(ends)
+            is_outside = bool(_OUTSIDE.search(left)) and not NOT.search(left)
+            kept = not (_DROPPED.search(left) or is_outside)
+            if not kept or _NOT_WITH.search(left):
+                kept, denied = False, words
+            found += [
+                (Force(kind="least", value_n=low, words=words), kept),
+                (Force(kind="most", value_n=high, words=words), kept),
+            ]
+        else:
+            kind, left_cut, right_cut = relation(left, right)
+            words = (
+                f"{left[left_cut:]}{words}{right[:right_cut]}".strip(" ,:")
+                .removeprefix("- ")
+                .rstrip(" -")
+            )
+            left, stop = left[:left_cut], stop + right_cut
+            before = _CONDITION.sub("", re.split(r"[.;,]\s|\bbut\b", left)[-1])
+            after = re.split(
+                r"[.;,]\s?|\b(?:instead of|rather than|because|since)\b", text[stop:], maxsplit=1
+            )[0]
+            clause = before + after
+            is_denied = kind == "value" and bool(_DROPPED.search(left) or NOT.search(before))
+            if _CORRECTION.search(left) or _CORRECTION.match(text[stop:].lstrip(" .,;-–—")):
+                is_denied = is_denied or not _CORRECTION.search(left)
+                if _CORRECTION.search(left):
+                    if kind == "value":
+                        kind = _kind_corrected([force for force, _ in found])
+                    found = [(force, False) for force, _ in found]
+            kept = not (_PAST.search(clause) or is_denied)
+            if kind == "value" and _NOT_WITH.search(left):
+                denied = words
+            force = Force(kind=kind, value_n=ends[0], words=words, within_n=within_n)
+            found.append((force, kept))
+        rest, end = f"{rest}{left} {MARK} ", stop
+    rest = " ".join((rest + text[end:]).split())
+    kept_forces = [force for force, kept in found if kept]
+    if denied and not kept_forces:
+        return [], denied, rest
+    kept_forces = kept_forces or [force for force, _ in found]
+    bounds = {force.value_n for force in kept_forces if force.kind != "value"}
+    return [f for f in kept_forces if f.kind != "value" or f.value_n not in bounds], "", rest
+
+
+def _kind_corrected(found: list[Force]) -> Kind:
+    """Kind of the force that a bare one corrects: 'at most 2 N, make that 1 N' is at most 1 N."""
+    if not found or (len(found) > 1 and found[-2].words == found[-1].words):  # a range
+        return "value"
+    return found[-1].kind

@@ -1,0 +1,118 @@
+"""The numbers of a text, read once: forces, changes, lengths, and what can't be read.
+
+Read are newtons with prefixes, grams, kilograms, pounds and ounces of force, in digits and in words,
+with tolerances, ranges, factors on the task's force, and lengths with what they bound. Not here: manner.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+from policies.instructions.quantities.bounds import with_plain_bounds
+from policies.instructions.quantities.elisions import written_out
+from policies.instructions.quantities.factors import denied_factor, read_delta, read_factor
+from policies.instructions.quantities.force import Force
+from policies.instructions.quantities.force_units import NUMBER, UNIT, number
+from policies.instructions.quantities.forces import read_forces
+from policies.instructions.quantities.numerals import in_digits
+from policies.instructions.quantities.places import AREA, place_words, read_lengths
+from policies.instructions.quantities.tolerances import with_plain_tolerances, without_lone
+from policies.instructions.quantities.unknown_units import unknown_force
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Quantities:
+    """What a text says in numbers.
+
+    Attributes:
+        forces: Forces in their order; the ends of a range are a least and a most.
+        delta_n: Force to add to the task's ('half a newton more'); None where none is named [N].
+        factor: Factor on the task's force ('half as hard'); None where none is named.
+        factor_words: The words that name it.
+        slip_mm, depth_mm: Largest slip, and depth, that are named [mm]; None where none is.
+        area_fraction: Part of the pad in contact that is named; None where none is.
+        pressure: Words of a pressure that is named in place of a force; '' for none.
+        unitless: A number that stands where a force would, without a unit; '' for none.
+        unread: Why a number that stands where a force would is none that can be read ('1 Nm');
+            '' for none.
+        percentage: A percentage or tolerance of nothing, where a force would stand; '' for none.
+        place: Words about the place on the pad, which are not read; '' for none.
+        denied: Words of a force that is not to be used, where no other one is named; '' for none.
+        rest: The plain text with each quantity and its relation replaced by ``MARK``.
+    """
+
+    forces: tuple[Force, ...] = ()
+    delta_n: float | None = None
+    factor: float | None = None
+    factor_words: str = ""
+    slip_mm: float | None = None
+    depth_mm: float | None = None
+    area_fraction: float | None = None
+    pressure: str = ""
+    unitless: str = ""
+    unread: str = ""
+    percentage: str = ""
+    place: str = ""
+    denied: str = ""
+    rest: str = ""
+
+
+_ELLIPSIS = re.compile(
+    rf"\b(?:not|no) (?:an?|1|one|a single) (millinewton|newton|gram|mn|n|gf) (more|less)(?: than)? ({NUMBER})(?!\s*(?:{UNIT})\b)"
+)
+_CHAIN = re.compile(
+    rf"({NUMBER})\s*(?:{UNIT})?\s*<=?\s*(?:f|force|it|x|grip)\s*<=?\s*({NUMBER})\s*((?:{UNIT})\b)"
+)
+_PAIR = re.compile(rf"[\[(]\s*({NUMBER})\s*[,;]\s+({NUMBER})\s*[\])]\s*((?:{UNIT})\b)")
+_PRESSURE = re.compile(
+    rf"(?:{NUMBER})\s*(?:[kmh]?pa\b|(?:kilo|mega|milli|hecto)?pascals?|m?bars?\b|psi\b|mm\s?hg|atm\b|"
+    r"n ?(?:/|per) ?(?:square )?[cm]m)"
+)
+_PERCENT_OF_NOTHING = re.compile(
+    rf"\b(?:with|at|use|using|apply|to) ({NUMBER}\s*(?:%|percent|per cent))(?=\s*(?:$|[.,;!]| please| and| force\b))"
+)
+
+
+def read_quantities(text: str) -> Quantities:
+    """Read the numbers of a plain text (``policies.instructions.english.text.plain``)."""
+    text = _ELLIPSIS.sub(r"no \2 than \3 \1", in_digits(text))
+    text = re.sub(rf"({NUMBER}), (?=newtons?\b)", r"\1 ", text)
+    text = re.sub(r"(?<=\d)['\u00a0\u202f ](?=\d{3}\b(?! ?mm))", "", text)  # 1 400 mN
+    text = re.sub(rf"({NUMBER})\s?-?ish\b", r"\1", text)
+    text = re.sub(rf"({NUMBER}) ?\(((?:{UNIT}))\)", r"\1 \2", text)
+    text = re.sub(rf"(\d)\.\s*(?=(?:{UNIT})\b)", r"\1 ", text)  # '5. N'
+    text = re.sub(rf"(?<![\d.,])0 ?[.,] ?(?=\d{{1,3}}\s*-?\s*(?:{UNIT})\b)", "0.", text)  # '0. 8 N'
+    text, lone = without_lone(with_plain_tolerances(text))
+    text = with_plain_bounds(text)
+    text = _CHAIN.sub(r"between \1 and \2 \3", text)
+    text = _PAIR.sub(r"between \1 and \2 \3", text)
+    unread = unknown_force(text)
+    text, unitless = written_out(text)
+    pressure = _PRESSURE.search(text)
+    slip_mm, depth_mm = read_lengths(text)
+    area = AREA.search(text)
+    delta_n, text = read_delta(text)
+    forces, denied, text = read_forces(text)
+    before_factor = text
+    factor, factor_words, text = read_factor(text)
+    if factor is not None and not forces:
+        denied = denied or denied_factor(before_factor, factor, factor_words)
+    is_alone = factor is None and area is None
+    percentage = _PERCENT_OF_NOTHING.search(text) if is_alone else None
+    return Quantities(
+        forces=tuple(forces),
+        delta_n=delta_n,
+        factor=factor,
+        factor_words=factor_words,
+        slip_mm=slip_mm,
+        depth_mm=depth_mm,
+        area_fraction=None if area is None else number(area["a"]) / 100,
+        pressure="" if pressure is None else pressure[0],
+        unitless=unitless,
+        unread=unread,
+        percentage=lone if percentage is None else percentage[1],
+        place=place_words(text),
+        denied=denied,
+        rest=text,
+    )

@@ -1,0 +1,233 @@
+"""Whether the words beside a force make it a value, a most or a least."""
+
+from __future__ import annotations
+
+import re
+
+from policies.instructions.quantities.force import Kind
+
+_FIRMER = r"(?:harder|firmer|tighter|stronger|heavier|larger|bigger|greater|higher)"
+_SOFTER = r"(?:softer|gentler|lighter|weaker|looser|lower|smaller|fewer)"
+_ABOVE = re.compile(
+    rf"\b(?:over|above|beyond|past|exceed(?:s|ed|ing)?|surpass\w*|in excess of|north of|upwards? of|"
+    rf"pass(?:es|ing)?|top(?:s|ping)?|cross(?:es|ing)?|overshoot\w*|overstep\w*|(?:any |a \w+ |\w+ )?more(?: \w+)? than(?: (?:you|i|we) (?:would|do|did)(?: (?:hold|press|squeeze|use|with|at|for|on))*)?|{_FIRMER}(?: \w+)? than(?: you would)?(?: with| at)?)"
+    r"(?: the| a| of)?\s*$|>\s*$"
+)
+_BELOW = re.compile(
+    rf"\b(?:under(?:neath)?|below|beneath|less(?: \w+)? than|{_SOFTER}(?: \w+)? than|south of|short of|"
+    r"shy of|sub)(?: the| a)?\s*-?$|<\s*$"
+)
+_MOST = re.compile(
+    r"(?:\b(?:less|lower|smaller) than or equal to|\b(?:at|under|below) or (?:under|below|at)|\b(?:ends|tops out|finish\w*|finishes)(?: \w+){0,3} (?:at|before)|\bstop\w*(?: \w+){0,3} before|\bstop (?:squeez|press)ing at|"
+    r"\bat (?:the )?(?:very |absolute )?most|\batmost|\bhard stop(?: at| of| is)?|\bup to|\b(?:as (?:hard|much|high|firm|far) as|no further than)|"
+    r"\bmax(?:imum|imal(?:ly)?|ed)?\.?(?: \w+){0,3}?(?: of| is| at| to|:| =|=)?|"
+    r"\blimit(?:s|ed|ing)?(?: \w+){0,3}?(?: to| of| at| is|:| =|=)?|"
+    r"\bcap(?:ped|ping)?(?: \w+){0,3}?(?: at| to| of| is|:| =|=)?|\bceiling(?: of| is| at|:| =|=)?|"
+    r"\bupper (?:\w+ )?(?:limit|bound|end)(?: \w+){0,2}?(?: of| is| at|:| =|=)?|\bpeak(?: \w+){0,2}?(?: of| is| at|:| =|=)?|"
+    r"<=|≤|=<|\bnot to exceed|\bat (?:the )?worst|\bworst case|\bwithin|\bbounded (?:above )?(?:by|at)|\b(?:not|never)(?: let it)? (?:go|push|squeeze|press)(?: \w{1,4})?|\b(?:top|max|peak|level)(?:p?ing|s|p?ed)?(?: \w+)?(?: out)? at|\b(?:restrict|confin|constrain|throttl)\w*(?: \w+){0,3}? (?:to|at|by)|\b(?:may|can|could|might)(?: only| just| at most)? (?:be (?:raised|increased)|rise|go|climb|increase|grow|build|reach|extend)(?: up)?(?: to)?|\b(?:not|never|without|avoid\w*)(?: (?:ever|let|the|force|it|grip|even|quite|to|be|going|you|allow\w*|pressure|have|want|go|come|rise)){0,5} (?:reach(?:es|ing)?|hit(?:s|ting)?|get(?:s|ting)? (?:up )?to|attain\w*|ris(?:e|es|ing) to|climb\w* to|go(?:ing|es)? (?:up |all the way )?to)|\b(?:budget|allowance)(?: of| is|:)?|\bno more than|\bnowhere near|\b(?:allow(?:ed)?|permit(?:ted)?)(?: is (?:until|till|up to))?(?: (?:up )?to(?: (?:use|reach|rise to|climb to|go(?: up)? to))?)?|"
+    r"\b(?:ease|eases|back|let)(?: \w+){0,2} (?:once|when|as soon as|at)(?: (?:you|it|we))?(?: (?:feel|reach|hit|see|measure|get to|read)\w*)?|\bfar (?:away )?from|\b(?:not|never)(?: (?:even|anywhere|get|go|come|be))* (?:close|near)(?: to)?|\bf[_ ]?max\s*[:=]?)"
+    r"(?: (?:about|around|roughly))?\s*$"
+)
+_LEAST = re.compile(
+    r"(?:\b(?:more|greater|higher|larger) than or equal to|\b(?:at|over|above) or (?:over|above|at)|"
+    r"\bat (?:the )?(?:very |absolute )?least|\batleast|\bmin(?:imum|imal(?:ly)?)?\.?(?: \w+){0,3}?(?: of| is| at|:| =|=)?|"
+    r"\blower (?:\w+ )?(?:limit|bound|end)(?: \w+){0,2}?(?: of| is| at|:| =|=)?|\bfloor(?: \w+){0,3}?(?: of| is| at|:| =|=)?|"
+    r">=|≥|=>|\bno less than|\b(?:it|berry|fruit|this|that|one|strawberry|thing) (?:really |always )?(?:needs|requires|takes)|\bf[_ ]?min\s*[:=]?|\bstarting (?:at|from)|\bbottom out at)"
+    r"(?: (?:about|around|roughly))?\s*$"
+)
+_OTHERS = r"(?!(?: it| them)?(?: than| of| is| to|:| =| at| with| from| above| over| beyond| by| under| below)?(?: (?:about|around|roughly))?(?: an?)? ?(?:\d|\.\d))"
+"""Ends a bound after a number: '2 N, at most 2.2 N' bounds the second number, not the first."""
+
+_HARMS = r"(?:g[ia]ves? (?:way|in)|broke|tore|left (?:a |its )?(?:mark|dent|bruise)|fail|yield|suffer|complain|leak|collapse|spoil|bruis|crush|squash|burst|break|split|crack|damag|mark|dent|pop|hurt|mush|ruin|spoil|tear|pulp)\w*\b"
+_SLIPS = r"(?:slips?|falls?|drops?|slides?|turns?|gets? away|wobbles?)"
+_BEEN = r"(?:is|was|are|were|would be|will be|would have been|has been|had been|seems?|seemed|felt|proved|turned out)(?: to be)?"
+_UNWANTED = (
+    r"(?:forbidden|prohibited|banned|disallowed|unacceptable|excessive|overkill|unnecessary|needless|dangerous|harmful|risky|taboo|ruled out|out of (?:the question|bounds)|"
+    r"off[ -]limits|an? no[ -]?(?:no|go)|not (?:allowed|permitted|acceptable|tolerated|tolerable|necessary|needed|required|wanted|safe|ok(?:ay)?|an option|advisable|recommended))"
+)
+"""What is said of a force that is too large."""
+_MOST_AFTER = re.compile(
+    r"\s*(?:-|–|,|:)?\s*(?:(?:at |as )?(?:a |the )?max(?:imum|imal)?\b(?!\.?(?: of| is|:| =)? ?\d)|tops\b|at (?:the )?(?:very |absolute )?most\b|"
+    r"(?:or|and) (?:a (?:little|bit|touch) |slightly |even )?(?:less|below|under|lower|lighter|softer|gentler|smaller)\b|(?: [a-z]+){1,3} at (?:the )?(?:very |absolute )?most\b|"
+    r"[;,.]? ?(?:and )?(?:do not|never|not|but not) (?:\w+ ){0,2}(?:past|over|above|beyond|exceed|higher than) (?:it|that|this)\b|"
+    r"(?:,? ?(?:and|but|yet|though) )?(?:absolutely )?(?:no|not|never|without)(?! need)(?: \w+){0,2} (?:more|higher|harder|above|over|further|beyond|past)\b"
+    r"(?!,? (?:and |or )?(?:no|not|nor|never)(?: \w+)? less)(?! (?:no|not) less)|"
+    r"(?:is|as|being)(?: (?!lower)\w+){0,3} (?:limit|max(?:imum)?|ceiling|cap|most|end of the line|last word)\b|(?:limit|ceiling|cap)\b(?!(?: of| is|:| =)? ?\d)|"
+    r"(?:(?:an?|the|my|your|as|is|as an?|as the) )*upper (?:\w+ )?(?:bound|limit|end)\b|"
+    rf"(?:,? ?(?:and|but) (?:it|that|this) )?(?:{_BEEN} )?(?:already |way |far |just |clearly |evidently )*too (?:much|hard|firm|high|strong|tight|rough|heavy|great)|and under\b|"
+    rf"at the (?:outside|utmost|very top)\b|to (?:play|work) with\b|(?:is|as) (?:the|my|our|a) (?:\w+ )?(?:roof|lid|wall|red line|end of it)\b|{_BEEN} (?:already |strictly |absolutely |still |simply )*{_UNWANTED}|"
+    rf"(?<!, )(?:already |surely |will |would |can |could |may |might |has |had |have )*{_HARMS}(?= (?:it|the|this|that|my|our|one|some|berr\w+|strawberr\w+|fruits?|a|easily|already|them)\b|\s*(?:$|[.;!,]))|"
+    rf"(?:will|would|is where \w+|is when \w+) (?:already |surely )?{_HARMS}|(?:it|they|the (?:(?:last|previous|first|other) )?\w+) (?:already |surely )?{_HARMS})"
+    + _OTHERS
+)
+_LEAST_AFTER = re.compile(
+    r"\s*(?:-|–|,|:|\+)?\s*(?:(?:at |as )?(?:a |the )?min(?:imum)?\b(?!\.?(?: of| is|:| =)? ?\d)|(?:(?:or|and) )?upwards?\b|(?:or|and) (?:a (?:little|bit|touch) |slightly |even )?(?:more|above|higher|over|harder|firmer|better|greater|larger|up|upwards?)\b|(?: [a-z]+){1,3} at (?:the )?(?:very |absolute )?least\b|[;,.]? ?(?:and )?(?:do not|never|not|but not) (?:\w+ ){0,2}(?:under|below|beneath|lower than) (?:it|that|this)\b|"
+    r"at (?:the )?(?:very |absolute )?least\b|plus\b|"
+    r"(?:,? ?and )?(?:absolutely )?(?:no|not|never)(?: \w+){0,2} (?:less|lower|softer|under|below)\b|"
+    r"(?:is|as|being)(?: \w+){0,3} (?:minimum|min|floor|least)\b|(?:floor)\b|"
+    r"(?:(?:an?|the|my|your|as|is|as an?|as the) )*lower (?:\w+ )?(?:bound|limit|end)\b|"
+    r"(?:(?:is|was|were|would be|are|will be|will|proved|turned out) )?(?:(?:to be )?not (?:do|enough)|(?:just |way |far )?too (?:little|light|soft|low|weak))|"
+    rf"(?:it|they|the \w+) (?:still |just |already )?{_SLIPS}\b)" + _OTHERS
+)
+_MOST_SOMEWHERE = re.compile(
+    r"\b(?:cut ?-?offs?|saturate at|clip(?:ped)? at|(?:not|never)(?: \w+){0,4} reach(?:es)?|before it reaches|back off at|the most (?:i|you|we|it|that)|upper (?:\w+ )?(?:bound|limit|end)|ceiling|red line|draw the line|top of (?:what|the|its)|bounded above|"
+    r"maximum|(?:not|without|never|avoid)(?: to)?(?: be(?:ing)?)? (?:exceed|surpass)\w*|(?:not|never|nor)\b.{0,30}\b(?:pass|past|exceed|over|above|beyond|surpass|cross) (?:it|that|this)\b|"
+    r"(?:remain|stay|keep|stop|be)\w* (?:it )?(?:just |well |safely )?(?:below|under|short of|beneath) (?:it|that|this)\b|as (?:a|the|an) (?:ceiling|cap|maximum|upper))"
+)
+_LEAST_SOMEWHERE = re.compile(
+    r"\b(?:the least (?:i|you|we|it|that)|lower (?:\w+ )?(?:bound|limit|end)|minimum|"
+    r"(?:not|never|nor)\b.{0,30}\b(?:below|under|beneath|short of|less than|lower than) (?:it|that|this)\b|"
+    r"(?:remain|stay|keep|be)\w* (?:it )?(?:just |well |safely )?(?:above|over) (?:it|that|this)\b|as (?:a|the) (?:floor|minimum|lower))"
+)
+_LOWERED = re.compile(
+    r"(?:\b(?:lower|reduce|decrease|cut|drop|bring down) (?:the|my|your|our|that|this|its) (?:\w+ )?|(?:^|[.;,!] ?|\b(?:please|just|now|then|and) )(?:lower|reduce|decrease|cut) (?:\w+ )?)"
+    r"(?:limit|bound|end|cap|ceiling|max\w*)(?: \w+){0,2}? (?:to|at)(?: (?:about|around|roughly))?\s*$"
+)
+"""'Lower the limit to 1 N' names a most, 'the lower limit is 1 N' a least."""
+_CONDITION = re.compile(
+    r"\b(?:if|unless|in case|only when|as needed|where needed|when(?:ever)? (?:it|the \w+) (?:slips?|slides?|starts?|moves?|needs?))\b"
+)
+_ONLY_IF = re.compile(
+    r"\s*,?\s*(?:(?:but )?only )?(?:if|when|where|as|unless) (?:really |absolutely |strictly )?(?:needed|necessary|required|need be|you must|you have to|it (?:slips|slides|needs)\b|unavoidable)"
+)
+_RISES = re.compile(
+    r"\b(?:go|get|rise|raise|increase|up|ramp|climb|bring|turn|crank|squeeze|more)\b[^.;,]{0,25}\bto(?: (?:about|around|roughly))?\s*$"
+)
+_REACHED = re.compile(
+    r"\b(?:if|when|whenever|once|should|as soon as|the moment)\b(?: \w+){1,3} (?:reach(?:es|ed)?|hits?|gets? to|attains?|shows?|reads?|climbs? to|rises? to)\s*$"
+)
+_IS_REACHED = re.compile(
+    r"\s*(?:is|are|has been|was|were) (?:reached|hit|attained|there|shown|felt)\b"
+)
+_ONCE = re.compile(r"\b(?:if|when|whenever|once|as soon as|the moment|should)\b[^.;,]{0,20}$")
+_ENOUGH = re.compile(
+    r"[^#]{0,25}?\b(?:stop|not|no more|never|enough|ease|back off|quit|halt|no further|hold there|cut)\b"
+)
+"""Behind a force that is reached: it ends there."""
+_EITHER_WAY = re.compile(
+    r"\b(?:more or less|less or more|harder (?:or|nor) softer|softer (?:or|nor) harder|higher (?:or|nor) lower|lower (?:or|nor) higher|"
+    r"above (?:or|nor) below|below (?:or|nor) above|over (?:or|nor) under|under (?:or|nor) over|firmer (?:or|nor) softer|softer (?:or|nor) firmer)(?: than)?\s*$"
+)
+_THAT_AFTER = re.compile(
+    r"[^.;#\d]{0,40}?\b(below|under|beneath|above|over) (?:that|it)\b(?! (?:goes|is|will))"
+)
+_EXACT_AFTER = re.compile(
+    r"[.,;:]?\s*(?:and )?(?:(?:not|no) (?:a \w+ )?(?:more|higher|harder)(?:,| and| or|\.)* ?(?:not|no|nor) "
+    r"(?:a \w+ )?(?:less|lower|softer)|(?:not|no) (?:a \w+ )?(?:less|lower|softer)(?:,| and| or|\.)* ?(?:not|no|nor) "
+    r"(?:a \w+ )?(?:more|higher|harder)|neither (?:more|harder|firmer|higher) nor (?:less|softer|lower|gentler)|"
+    r"neither (?:less|softer|lower|gentler) nor (?:more|harder|firmer|higher)|no (?:more|less) and no (?:less|more))"
+)
+
+NOT = re.compile(
+    r"\b(?:not|no|never|none|nothing|nowhere|without|nor|neither|avoid\w*|refrain|refuse|forbid\w*|stop|"
+    r"prevent\w*|keep(?: \w+){0,4} from|rather than|hardly|nobody)\b"
+)
+_IF = re.compile(
+    r"(?<!only )(?<!just )\b(?:if|should) (?:you|it|we|the \w+)\b(?! (?:would |could |can |just |only |always |never )*(?:stay|stays|stayed|keep|keeps|kept|remain\w*|hold|held|use|used|limit\w*|were|was kept|is kept)\b)"
+)
+_WHEN_ABOVE = re.compile(
+    r"\b(?:when|whenever|once|in case|as soon as|the moment|every time|any ?time|if)(?: (?!use\b|using\b|with\b|apply\b|hold\b|grip\b|it slips?\b)\w+){0,3} $"
+)
+"""'Whenever it is above 1 N, ease off'."""
+_WISHED = re.compile(
+    r"\b(?:prefer|appreciate|like|love|wish|happ\w+|glad|nicer?|great|good|best|better|ideal|grateful|thankful|pleased|safer|safest|kind|lovely|fine|ok|okay|cool|perfect|helpful|wonderful|sure)(?: it| for me| of you)? if\b"
+)
+"""'I would prefer it if it went below 1 N' supposes nothing."""
+
+_RISE = re.compile(
+    r"\b(?:bring|take|raise|get|ramp|crank|turn|increase|dial|build|work|go)(?: (?:it|this|that|the \w+))?\s*$"
+)
+_UNCONCERNED = re.compile(
+    r"\b(?:(?:do|does|did|would|should|need|must|can) not (?:really |much )?(?:care|mind|matter|worry|bother|know|want to know|understand|fuss)|no (?:matter|problem|worries|idea|rush|hurry|question)|not (?:sure|bothered|fussed|certain)|why not|whether or not|no(?= (?:not|never|no)\b)|not (?=(?:not|never|no)\b))"
+)
+"""Denials that don't deny a bound: 'I do not care, just not above 1 N'."""
+_STOPS_SHORT = re.compile(
+    r"\bstop(?:s|ping)?(?: (?!squeez|press|grip|hold)\w+){0,2}? (?:short of|shy of|before|below|under|beneath)(?: (?:about|around|roughly|the|a))?\s*$"
+)
+_NOT_STOPPING = re.compile(r"\b(?:not|never|without|no)(?: \w+){0,2} $")
+_HARMED = re.compile(
+    rf"\b{_HARMS}(?: \w+){{0,3}} (?:above|over|beyond|past|at|from|with more than|after)\s*$"
+)
+_SLIPPING = re.compile(
+    rf"(?:^|[,;:]|\b(?:it|berry|fruit|one|this|thing|they|and|or|but|these|berries)) ?{_SLIPS}(?: \w+){{0,3}} (?:under|below|at|with|with less than)\s*$"
+)
+_TOO_MUCH = re.compile(
+    rf"[^.;#]{{0,20}}\b(?:too much|out of|no go|not ok\w*|pointless|useless|no (?:use|sense|point|need|good)|wast\w+|{_UNWANTED}|(?:not|never) (?:be )?(?:needed|necessary|required|called for|wise|good|wanted|used)|{_HARMS})"
+)
+_TOO_LITTLE = re.compile(
+    rf"[^.;#]{{0,20}}\b(?:will not do|not (?:allowed|acceptable|permitted|ok\w*|on)|forbidden|banned|not (?:enough|sufficient)|too little|insufficient|useless|will not hold|no good|not acceptable|{_SLIPS}|let it|(?:gets?|is|becomes?|feels) (?:loose|shaky|unstable|slippery))"
+)
+
+
+def _end_of_conditional_most(left: str, right: str) -> int | None:
+    """How much behind a force says that it is an end to be reached; None where it is none."""
+    reached = _IS_REACHED.match(right) if _ONCE.search(left) else None
+    cut = reached.end() if reached else 0
+    if (reached or _REACHED.search(left)) and _ENOUGH.match(right[cut:]):
+        return cut  # 'once 1 N is reached, stop'
+    conditional = _CONDITION.search(re.split(r"[.;]\s", left)[-1])
+    return 0 if (conditional and _RISES.search(left)) or _ONLY_IF.match(right) else None
+
+
+def relation(left: str, right: str) -> tuple[Kind, int, int]:
+    """Kind of a force, and how much of the text on either side says so."""
+    if match := _THAT_AFTER.match(right):
+        return ("most" if match[1] in ("below", "under", "beneath") else "least"), len(left), 0
+    if _EITHER_WAY.search(left):
+        return "value", len(left), 0
+    if exact := _EXACT_AFTER.match(right):
+        return "value", len(left), exact.end()
+    if match := _LOWERED.search(left):
+        return "most", match.start(), 0
+    if (cut := _end_of_conditional_most(left, right)) is not None:
+        return "most", len(left), cut
+    if match := _STOPS_SHORT.search(left):
+        return (
+            ("least" if _NOT_STOPPING.search(left[: match.start()]) else "most"),
+            match.start(),
+            0,
+        )
+    for pattern, plainly, denied, harm in (
+        (_ABOVE, "least", "most", _TOO_MUCH),
+        (_BELOW, "most", "least", _TOO_LITTLE),
+    ):
+        if match := pattern.search(left):
+            clause_start = max(
+                (m.end() for m in re.finditer(r"[.;:,]\s|\bso\b|\bbut\b", left[: match.start()])),
+                default=0,
+            )
+            said = _UNCONCERNED.sub(lambda m: " " * len(m.group()), left)
+            said = _WISHED.sub(lambda m: " " * len(m.group()), said)
+            denial = list(NOT.finditer(said, clause_start, match.end())) or list(
+                _IF.finditer(said, clause_start, match.end())
+            )
+            stated = _HARMED if pattern is _ABOVE else _SLIPPING
+            is_denied = len(denial) % 2 == 1 or (
+                pattern is _ABOVE and bool(_WHEN_ABOVE.search(said[clause_start : match.start()]))
+            )
+            is_denied = is_denied or bool(harm.match(right)) or bool(stated.search(left))
+            start = denial[0].start() if len(denial) % 2 == 1 else match.start()
+            return (denied if is_denied else plainly), start, 0  # type: ignore[return-value]
+    if match := _HARMED.search(left):
+        return "most", match.start(), 0
+    if match := _SLIPPING.search(left):
+        return "least", match.start(), 0
+    most, least = _MOST.search(left), _LEAST.search(left)
+    if most and most.group().startswith("up to") and _RISE.search(left[: most.start()]):
+        most = None  # 'bring it up to 1.4 N'
+    if most and (not least or most.start() < least.start()):
+        return "most", most.start(), 0
+    if least:
+        return "least", least.start(), 0
+    if match := _MOST_AFTER.match(right):
+        return "most", len(left), match.end()
+    if match := _LEAST_AFTER.match(right):
+        return "least", len(left), match.end()
+    after = re.split(r"[.!?](?:\s|$)|#", right)[0]
+    after = "" if re.search(r"\d", after) else after  # it belongs to the next force
+    sentence = re.split(r"[.;!?]\s|#", left)[-1] + " # " + after
+    if _MOST_SOMEWHERE.search(sentence):
+        return "most", len(left), 0
+    if _LEAST_SOMEWHERE.search(sentence):
+        return "least", len(left), 0
+    return "value", len(left), 0
