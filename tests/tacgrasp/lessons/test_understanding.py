@@ -105,7 +105,7 @@ def test_what_sounds_like_it_is_still_read(question):
 
 def test_what_takes_a_force_for_a_mass_is_not_named(monkeypatch):
     monkeypatch.setattr(Odds, "rival", "check stays #2 g.")
-    asked = understood(Writer("check stays #1 g."), "Is 0.5 N enough to hold 30 g?")
+    asked = understood(Writer("check stays #1 g."), "Does 0.5 N match 30 g?")
     assert asked.query == "check stays #2 g."
 
 
