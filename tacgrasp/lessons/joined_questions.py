@@ -136,7 +136,7 @@ def _either(question: str) -> tuple[Check, ...]:
     checks = [each for each in told if isinstance(each, Check) and not each.needed_n]
     if len(checks) < len(told):
         return ()
-    kinds = {check.test.partition(" ")[0] for check in checks}
+    kinds = {check.shows for check in checks}  # 'left' and 'right' are of one kind
     are_compared = all(re.search(r"\d", check.test) for check in checks)
     return tuple(checks) if len(kinds) > 1 or are_compared else ()
 

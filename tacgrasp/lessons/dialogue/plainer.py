@@ -88,6 +88,7 @@ _POLITE = re.compile(
 _PURPOSE = re.compile(
     r",? (?:just the (?:figure|number),? )?so (?:that )?(?:i|we) (?:may|can|could) .*$", re.I
 )
+_CHOICE_TAG = re.compile(r"(?<=\w), (?:no|yes|right|correct)(?=[?.! ]*$)", re.I)
 _ADDED = re.compile(
     r",? (?:rounded )?(?:to|with) (?:\w+|\d) (?:decimals?|decimal places|digits|"
     r"significant (?:figures|digits))|"
@@ -140,6 +141,8 @@ def plainer(question: str) -> str:
     text = _PURPOSE.sub("", _POLITE.sub("give me ", _THANKS.sub("", text), count=1))
     if tag := _TAG.search(text):
         text = _asked(text, tag)
+    if " or " in text:
+        text = _CHOICE_TAG.sub("", text)
     if denied := _DENIED_FIRST.match(text):
         text = f"{_affirmed(denied[0])}{text[denied.end() :]}"
     return turned(text) or question

@@ -108,14 +108,17 @@ def in_asked_unit(query: str, words: str) -> str:
     Returns:
         The query; '' where it is for one amount that is not to be had in the one unit asked for.
     """
-    named = {_units_of(match[1] or match[2]) for match in _ASKED_UNIT.finditer(words)}
+    said = [match[1] or match[2] for match in _ASKED_UNIT.finditer(words)]
+    named = list(dict.fromkeys(_units_of(each) for each in said))
     amounts = list(_AMOUNT.finditer(query))
-    for amount in reversed(amounts):
+    quantities = [amount[1] for amount in amounts]
+    for place, amount in reversed(list(enumerate(amounts))):
         units = [
             unit for spelled in named if (unit := _unit_for(amount[1], spelled, amount[3])) != ""
         ]
-        if len(units) == 1:
-            query = f"{query[: amount.start(3)]}{units[0]}{query[amount.end(3) :]}"
+        if len(units) == len(amounts) or (len(units) == 1 == quantities.count(amount[1])):
+            unit = units[place] if len(units) > 1 else units[0]
+            query = f"{query[: amount.start(3)]}{unit}{query[amount.end(3) :]}"
         elif not units and len(amounts) == len(named) == 1 and ";" not in query:
             return ""
     return query

@@ -5,7 +5,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from tacgrasp.lessons import understanding
+from tacgrasp.lessons import joined_questions, understanding
 from tacgrasp.lessons.dialogue.query import read_query
 from tacgrasp.lessons.query_classifier import QueryOdds
 from tacgrasp.lessons.understanding import (
@@ -128,7 +128,8 @@ def test_a_part_that_the_grammar_knows_is_not_lost(monkeypatch, known, query):
     def meant(text, **_):
         return read_query(known[text]) if text in known else None
 
-    monkeypatch.setattr(understanding, "understand", meant)
+    for module in (understanding, joined_questions):
+        monkeypatch.setattr(module, "understand", meant)
     asked = understood(Forgetful(), "How deep is it, and how would its skin feel?")
     assert asked.query == query
 

@@ -19,12 +19,15 @@ _SIDES = {
     "top": re.compile(r"\b(?:top|upper|palm|palmar|proximal)\b"),
     "bottom": re.compile(r"\b(?:bottom|lower|tip|fingertip|distal)\b"),
 }
-_TAG_RIGHT = re.compile(r"(?<! the)(?<! on)(?<! at)(?<! to)(?<! or)(?<! and)(?<! from) right$")
+_TAG_RIGHT = re.compile(
+    r"(?<! the)(?<! on)(?<! at)(?<! to)(?<! or)(?<! and)(?<! from)(?<! is) right$"
+)
 _EDGE = r"(?:edges?|rims?|borders?|boundary|boundaries|margins?)"
 _CUT = (
     r"(?:cuts?|cutting|clip(?:s|ped|ping)?|crop(?:s|ped|ping)?|truncat(?:es|ed|ing)|chopped|lopped|"
     r"sliced|trimmed|h[au]ng(?:s|ing)? over|stick(?:s|ing)? out|spill(?:s|ing)?|overhang(?:s|ing)?|"
-    r"run(?:s|ning)? (?:off|over|out)|over the edge|off the (?:pad|edge))"
+    r"run(?:s|ning)? (?:off|over|out)|over the edge|outside|off the (?:pad|edge)|"
+    r"out of the (?:pad|sensor|gel))"
 )
 _MEETS = (
     r"(?:touch(?:es|ed|ing)?|reach(?:es|ed|ing)?|meets?|meeting|hits?|hitting|cross(?:es|ed|ing)?|"
@@ -39,6 +42,7 @@ _MEETS_THE_EDGE = re.compile(
 _IS_NEAR = re.compile(
     rf"\b(?:near|nearby|close to|next to|beside|adjacent to|at)\b(?: \w+){{0,2}} {_EDGE}\b"
 )
+_IS_AWAY = re.compile(rf"\b(?:away|far|clear) from\b(?: \w+){{0,2}} {_EDGE}\b")
 _WHICH = re.compile(
     rf"\b(?:which|what) (?:{_EDGE}|sides?)\b|\bwhere is it (?:cut|clipped|cropped)\b"
 )
@@ -64,6 +68,8 @@ def edge_query(words: str) -> str:
         if len(named) > 1:
             return "word cut_sides."
         return f"check {denied}cut {named[0]}."
+    if _IS_AWAY.search(words) and len(named) == 1:
+        return f"check {'' if denied else 'not '}near {named[0]}."
     if _IS_NEAR.search(words) and len(named) == 1:
         return f"check {denied}near {named[0]}."
     return ""

@@ -18,7 +18,7 @@ _PATTERNS = (
     rf"(?:{_NUMBER}|\bin|\bof|\bmany)\s*{_PRESSURE}",
     r"\b(?:average|mean|peak|maximum) pressure\b|\bper (?:area|unit|square|mm)\b",
     # units that no answer has
-    r"\b(?:in|many) (?:pixels?|px|taxels?|degrees?|radians?|joules?|watts?|volts?|feet|foot|yards?|"
+    r"\b(?:in|many) (?:pixels?|px|taxels?|joules?|watts?|volts?|feet|foot|yards?|"
     r"stones?|tons?|tonnes?)\b",
     # multiples
     r"\b(?:[4-9]|\d\d+) times (?:that|this|the|it|as)\b",
@@ -38,6 +38,9 @@ _PATTERNS = (
     r"\b(?:mass|weight|load|heavy|grams|much)\b.*"
     rf"\b(?:can|could|will|would|does|do) {_NEWTONS}\b",
     rf"\b(?:closer|nearer) to {_NUMBER}.* or\b.*{_NUMBER}",
+    # a number to be converted, and one of two comparisons that nothing else reads
+    rf"^(?:what is|how much is|convert) {_NUMBER} ?\w+ (?:in|to|into)\b",
+    rf"{_NUMBER} ?\w+,? or (?:\w+ ){{0,2}}(?:over|above|under|below|\w+ than) {_NUMBER}",
     # distances from one edge, both offsets, offsets in other units than mm
     r"\b(?:how (?:far|close|near|many mm)|(?:what|which) (?:is the )?distance)\b.*\b"
     r"(?:left|right|top|bottom|upper|lower|palm|tip|fingertip) (?:side )?"

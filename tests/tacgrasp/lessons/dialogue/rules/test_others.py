@@ -37,6 +37,7 @@ def test_a_class_of_questions_has_its_query(question, query):
         "Which side is it on?",
         "Should I press more?",
         "How deep is it?",
+        "The depth in centimetres, since our form only takes those?",
     ],
 )
 def test_others_are_left_to_the_readers(question):
@@ -72,6 +73,7 @@ def test_what_no_query_has_is_beyond_them(question):
         "How many newtons more until the limit?",
         "How much can it hold at 2 N?",
         "How far is it to the left?",
+        "How warm is it, in degrees?",
     ],
 )
 def test_what_is_near_it_is_not(question):
