@@ -33,31 +33,40 @@ from tacgrasp.lessons.dialogue.meaning import (
     Amount,
     AnswerKind,
     Check,
-    Length,
     Meaning,
     Several,
-    Which,
     names_of,
     truth_of,
 )
 from tacgrasp.lessons.dialogue.plainer import (
-    AUXILIARY,
     in_words,
-    is_beyond,
     is_denied_first,
     plainer,
 )
 from tacgrasp.lessons.dialogue.query import (
-    AMOUNTS,
     asked_text,
     query_grammar,
     query_of,
     read_query,
 )
+from tacgrasp.lessons.dialogue.rules.unread import is_beyond
 from tacgrasp.lessons.dialogue.scene import AskedScene
 from tacgrasp.lessons.dialogue.scoring.tolerances import tolerance_of
 from tacgrasp.lessons.dialogue.sided_questions import to_named_side
 from tacgrasp.lessons.dialogue.written_units import in_asked_unit, numbers_in_units
+from tacgrasp.lessons.joined_questions import (
+    JOINT,
+    MOST_JOINED,
+    MOST_JOINTS,
+    REQUEST,
+    asked_together,
+    is_either,
+    joinable,
+    joined,
+    read_part,
+    together,
+    with_adjective,
+)
 from tacgrasp.lessons.query_classifier import QueryOdds
 from tacgrasp.lessons.question_form import denied_statement, is_one_clause, is_unlikely
 
@@ -115,42 +124,6 @@ _STANDS_ALONE = re.compile(
     re.I,
 )
 """A question with subject and verb: 'Is it round?' follows nothing, 'Is it?' may."""
-
-MOST_JOINED = 5
-"""Most wordings of the grammar that are asked together. Our choice; a model's query has three."""
-
-MOST_JOINTS = 8
-"""Most places where a question may be divided. Our choice: three questions with commas of their own
-have fewer, and a pasted page would take seconds."""
-
-_JOINT = re.compile(r"\s*[?;.]\s+(?:and\s+)?|\s*,\s+(?:and\s+)?|\s+(?:and|plus)\s+", re.I)
-"""What joins two questions."""
-
-_SUBJECT = re.compile(
-    rf"{AUXILIARY} (?:it|this|that|we|they|(?:the|our|this|that) \w+) ",
-    re.I,
-)
-"""Verb and subject that begin a question: 'is it', 'does the object'."""
-
-_ADJECTIVE = re.compile(
-    rf"({AUXILIARY} (?:it|this|that) )an? ((?:very )?\w+) (.*)",
-    re.I,
-)
-
-_REQUEST = re.compile(
-    r"^(?:(?:could|can|would|will) you )?(?:please |kindly )?(?:give|tell|note|state|report|name|"
-    r"list|enumerate|specify|show|measure|read|write|send)(?: down| out)?(?: (?:me|us))?"
-    r"(?: for the \w+)?[ :]+",
-    re.I,
-)
-"""What may stand before a list of things that are asked for."""
-
-_AT_LENGTH = re.compile(
-    r"^in (?:one|a) (?:single )?(?:sentence|word)(?: each)?[,:] |,? (?:all )?in (?:one|a) "
-    r"(?:single |short |full |complete )?(?:sentence|word|line)(?: each)?[.?!]*$",
-    re.I,
-)
-"""How long an answer is to be; that to several questions is as long as it must be."""
 
 NOT_UNDERSTOOD = "I don't understand the question."
 
@@ -212,11 +185,11 @@ def understood_by_grammar(question: str, before: str = "") -> ReadQuestion | Non
     # 'isn't more than 1 N felt' would be read as 'is not more than 1 N felt'
     if is_denied and (affirmed := understood_by_grammar(plain, before)):
         return affirmed
-    meaning = _with_adjective(question) or understand(question, before=before)
+    meaning = with_adjective(question) or understand(question, before=before)
     if meaning is None and plain != question:
         return understood_by_grammar(plain, before)
-    if meaning is None and not before and (parts := _joined(question)):
-        meaning = _together(parts)
+    if meaning is None and not before:
+        meaning = asked_together(question)
     if meaning is None:
         return None
     asked = asked_text(question, before)
@@ -224,65 +197,11 @@ def understood_by_grammar(question: str, before: str = "") -> ReadQuestion | Non
         query = query_of(meaning, asked.numbers)
     except ValueError:  # it has a number that is no number of the question: 'half a kilo'
         return None
-    query = to_named_side(query, asked.words)
+    query = _as_told(query, asked.words)
+    if not query:
+        return None
     read = read_query(query, asked.numbers)
     return None if read is None else _as_one(question, ReadQuestion(query, read, 1.0))
-
-
-def _joined(question: str, most: int = MOST_JOINED) -> tuple[Amount | Check | Which, ...]:
-    """The meanings of at most so many joined wordings of the grammar; none where it lacks one."""
-    question = _AT_LENGTH.sub("", _REQUEST.sub("", question, count=1))
-    joints = list(_JOINT.finditer(question))
-    if len(joints) > MOST_JOINTS:
-        return ()
-    for joint in joints:
-        first = _joinable(understand(question[: joint.start()]))
-        if not first:
-            continue
-        rest, left = question[joint.end() :], most - len(first)
-        for others_asked in (rest, *_same_subject(question, joint, rest)):
-            others = _joinable(understand(others_asked))
-            others = others or (_joined(others_asked, left) if left > 1 else ())
-            if 0 < len(others) <= left:
-                return first + others
-    return ()
-
-
-def _same_subject(question: str, joint: re.Match[str], rest: str) -> Iterator[str]:
-    """What comes behind a joint, with the verb and subject of the first part: 'and smooth?'."""
-    if (begin := _SUBJECT.match(question)) and joint[0].strip()[:1] not in ("?", ";", "."):
-        yield f"{begin[0]}{rest}"
-
-
-def _with_adjective(question: str) -> Meaning | None:
-    """The meaning of 'is it a smooth ball': is it smooth, and is it a ball; None of others."""
-    if (asked := _ADJECTIVE.fullmatch(question)) is None:
-        return None
-    begin, adjective, noun = asked.groups()
-    parts = [understand(f"{begin}{part}") for part in (adjective, f"a {noun}")]
-    checks = [part for part in parts if isinstance(part, Check)]
-    named = [check.test.partition(" ")[0] for check in checks]
-    return Several(parts=tuple(checks)) if named == ["texture", "shape"] else None
-
-
-def _together(parts: Sequence[Amount | Check | Which]) -> Meaning:
-    """Parts as one meaning; 'is it slight, moderate or deep' offers all three words."""
-    offered = {part.name for part in parts if isinstance(part, Which) and not part.is_open}
-    kept = tuple(
-        part
-        for part in dict.fromkeys(parts)
-        if not (isinstance(part, Check) and part.test.partition(" ")[0] in offered)
-    )
-    return kept[0] if len(kept) == 1 else Several(parts=kept)
-
-
-def _joinable(meaning: Meaning | None) -> tuple[Amount | Check | Which, ...]:
-    """The parts of what can be asked together with others; none of what can't be."""
-    if isinstance(meaning, Several):
-        return meaning.parts
-    if isinstance(meaning, Amount | Check | Which) and meaning.length is Length.FREE:
-        return (meaning,)
-    return ()
 
 
 def understood_by_model(
@@ -321,17 +240,20 @@ def understood_by_model(
     weights = np.exp(np.array(logs) - max(logs))
     best = int(weights.argmax())
     query, meaning = possible[best]
-    if (told := _as_told(query, asked.words)) != query:
+    told = _as_told(query, asked.words)
+    if not told:
+        return None
+    if told != query:
         numbers = numbers_in_units(told, asked.words, asked.numbers)
         query, meaning = told, read_query(told, numbers or asked.numbers) or meaning
     read = ReadQuestion(query, meaning, confidence=float(weights[best] / weights.sum()))
-    joined = None if before else _partly_known(writer, plain, read.confidence)
-    return _as_one(plain, joined if joined and _asks_more(joined, read) else read)
+    partly = None if before else _partly_known(writer, plain, read.confidence)
+    return _as_one(plain, partly if partly and _asks_more(partly, read) else read)
 
 
 def _as_told(query: str, words: str) -> str:
-    """A query with the side and the unit that the question names."""
-    return in_asked_unit(to_named_side(query, words), words, AMOUNTS)
+    """A query with the side and the unit that the question names; '' where it has no such unit."""
+    return in_asked_unit(to_named_side(query, words), words)
 
 
 def _partly_known(writer: QueryWriter, question: str, confidence: float) -> ReadQuestion | None:
@@ -339,17 +261,17 @@ def _partly_known(writer: QueryWriter, question: str, confidence: float) -> Read
 
     A comma alone may stand before an addition: 'the force, in plain newtons'.
     """
-    question = _REQUEST.sub("", question, count=1)
-    joints = [joint for joint in _JOINT.finditer(question) if joint[0].strip() != ","]
+    question = REQUEST.sub("", question, count=1)
+    joints = [joint for joint in JOINT.finditer(question) if joint[0].strip() != ","]
     for joint in reversed(joints[:MOST_JOINTS]):
         begin, end = question[: joint.start()], question[joint.end() :]
         for known, lacked in ((begin, end), (end, begin)):
-            parts = _joinable(understand(known)) or _joined(known, MOST_JOINED - 1)
+            parts = joinable(read_part(known)) or joined(known, MOST_JOINED - 1)
             other = understood_by_model(writer, lacked) if parts else None
             if other is None or other.confidence < ALONE_FROM:
                 continue
-            others = _joinable(other.meaning)
-            meaning = _together(parts + others if known == begin else others + parts)
+            others = joinable(other.meaning)
+            meaning = together(parts + others if known == begin else others + parts)
             try:
                 query = query_of(meaning, asked_text(question).numbers)
             except ValueError:
@@ -383,7 +305,9 @@ def _as_one(question: str, read: ReadQuestion) -> ReadQuestion:
         return read
     shown = (name for check in checks for name in check.shows)
     both = Check(
-        condition=" and ".join(f"({check.condition})" for check in checks),
+        condition=(" or " if is_either(question) else " and ").join(
+            f"({check.condition})" for check in checks
+        ),
         shows=tuple(dict.fromkeys(shown)),
     )
     return read._replace(meaning=both)

@@ -132,14 +132,20 @@ def _check(asked: Check, scene: AskedScene) -> Answer:
     values = scene.values()
     is_so = bool(Expression(asked.condition).evaluate(values).value)
     yes = "yes" if is_so else "no"
-    *first, last = (fact(name, scene)[1] for name in asked.shows)
-    clause = f"{', '.join(first)} and {last}" if first else last
-    if asked.needed_n:
-        needed = float(Expression(asked.needed_n).evaluate(values).value or 0.0)
-        clause = f"it needs {needed:.2f} N and {clause}"
+    clause = _shown(asked, scene)
     is_word = asked.length is Length.WORD
     text = f"{yes.capitalize()}." if is_word else f"{yes.capitalize()}, {clause}."
     return Answer(text=text, kind=AnswerKind.YES_NO, value=is_so)
+
+
+def _shown(asked: Check, scene: AskedScene) -> str:
+    """What a yes or no is based on: 'it needs 0.62 N and the force is 0.83 N'."""
+    clauses = [fact(name, scene)[1] for name in asked.shows]
+    if asked.needed_n:
+        needed = float(Expression(asked.needed_n).evaluate(scene.values()).value or 0.0)
+        clauses.insert(0, f"it needs {needed:.2f} N")
+    *first, last = clauses
+    return f"{', '.join(first)} and {last}" if first else last
 
 
 def _which(asked: Which, scene: AskedScene) -> Answer:
@@ -161,9 +167,12 @@ def _several(asked: Several, scene: AskedScene) -> Answer:
             clause = named(part.name, str(scene.values()[part.name]), scene)[1]
         elif isinstance(part, Amount):
             clause = _amount_clause(part, scene)[1]
+            clause = clause.replace("holds it", f"holds {part.of}") if part.of else clause
         else:
             yes = "yes" if Expression(part.condition).evaluate(scene.values()).value else "no"
-            shown = fact(part.shows[0], scene)[1]
+            shown = _shown(part, scene)
+            if mass := re.fullmatch(r"(?:slips|stays) (\S+ g|\S+ kg)", part.test):
+                shown = shown.replace("it needs", f"{mass[1]} needs")
             is_number = has_amount and re.search(r"\d", shown)
             # a number, or an edge, would be taken for one that was asked for
             is_mistakable = is_number or (asks_shape and part.shows == ("cut",))

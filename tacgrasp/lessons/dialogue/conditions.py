@@ -1,8 +1,8 @@
 """Conditions that a yes or a no tells, by their words in a query.
 
     depth > 300 µm      force 1 - 2 N       offset_x <= 2 mm
-    shape ring          depth >= deep       force within        left
-    slips 30 g          stays given
+    shape ring          depth >= deep       force within        left        cut left
+    slips 30 g          stays given         needed 30 g <= 0.5 N
     twice force over    half force within   force 1.2 +- 0.1 N
     half depth > 0.2 mm        force about 1.2 N
 
@@ -15,7 +15,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 
-from cltp.tactile.states import CLASSES
+from cltp.tactile.states import CLASSES, Position, Side
 from tacgrasp.lessons.dialogue.meaning import Check, Length, grams_of
 from tacgrasp.lessons.dialogue.quantities import MULTIPLIED, QUANTITIES, TIMES
 from tacgrasp.lessons.dialogue.scene import HOLDING_N_PER_G
@@ -52,6 +52,19 @@ STATES: Mapping[str, tuple[str, str]] = {
     },
 }
 """Expression of each state, and the fact that an answer names."""
+
+EDGE_STATES: Mapping[str, tuple[str, str]] = {
+    **{f"cut {side}": (f"cut_{side}", "cut_sides") for side in Side},
+    **{
+        f"near {side}": (
+            " or ".join(f"position == '{each}'" for each in Position if side in each.split("-")),
+            "position",
+        )
+        for side in Side
+    },
+}
+"""The same of one edge of the pad: that it cuts the contact, and that the contact is near it. Rules
+alone come to them (``tacgrasp.lessons.dialogue.rules``)."""
 
 _MEASURED: Mapping[str, Mapping[str, str]] = {
     "depth": {"mm": "", "µm": " / 1000", "cm": " * 10"},
@@ -105,6 +118,7 @@ _BETWEEN = re.compile(rf"({_TIMES}\w+) (\S+) - (\S+) (\S+)")
 _NEAR = re.compile(rf"({_TIMES}\w+) (\S+) \+- (\S+) (\S+)")
 _ABOUT = re.compile(r"(depth|force) about (\S+) (\S+)")
 _FATE = re.compile(rf"({'|'.join(FATES)}) (?:{GIVEN}|(\S+) (\S+))")
+_SUFFICES = re.compile(r"needed (\S+) (g|kg) (<=|>) (\S+) (N|mN)")
 
 
 def check_of(test: str, *, denied: bool = False, length: Length = Length.FREE) -> Check:
@@ -120,8 +134,15 @@ def check_of(test: str, *, denied: bool = False, length: Length = Length.FREE) -
     """
     needed_n = ""
     name, _, word = test.partition(" ")
-    if test in STATES:
-        condition, shows = STATES[test]
+    if state := STATES.get(test) or EDGE_STATES.get(test):
+        condition, shows = state
+    elif suffices := _SUFFICES.fullmatch(test):
+        mass, mass_unit, sign, force, unit = suffices.groups()
+        needed_n = f"{HOLDING_N_PER_G} * {_mass(mass, mass_unit)}"
+        condition = (
+            f"gram_n * {_mass(mass, mass_unit)} {sign} {_plain(force)}{MEASURED['force'][unit]}"
+        )
+        shows = ""
     elif word in CLASSES.get(name, ()):
         condition, shows = f"{name} {'!=' if denied else '=='} '{word}'", WORD_FACTS[name]
     elif fate := _FATE.fullmatch(test):
@@ -160,7 +181,7 @@ def check_of(test: str, *, denied: bool = False, length: Length = Length.FREE) -
         test=test,
         denied=denied,
         condition=condition,
-        shows=(shows,),
+        shows=(shows,) if shows else (),
         needed_n=needed_n,
         length=length,
     )

@@ -94,6 +94,12 @@ def fact(name: str, scene: AskedScene) -> tuple[str, str]:
             force = fact("force", scene)[0]
             clause = f"{force} is {_WORDS['force_band'][word]}"
             return clause, clause
+        case "cut_sides":
+            edges = "the edge of the pad" if word == "none" else f"the {word} edge"
+            verb = "does not cut" if word == "none" else "cuts"
+            clause = f"{edges.replace('edge', 'edges') if ' and ' in word else edges} "
+            clause += f"{'cut' if ' and ' in word else verb} it"
+            return clause, clause
         case "contact":
             touched = "something touches the pad" if value else "nothing touches the pad"
             return touched, touched
@@ -131,6 +137,8 @@ def named(name: str, word: str, scene: AskedScene) -> tuple[str, str]:
     if name == "action":
         clause = f"{ACTIONS[word]}: {REASONS[str(scene.values()['reason'])]}"
         return ACTIONS[word], clause
+    if name == "cut_sides":
+        return fact(name, scene)
     phrase = _WORDS[name][word]
     return phrase, phrase if name == "wholeness" else f"it is {phrase}"
 

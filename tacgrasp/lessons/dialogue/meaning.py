@@ -150,6 +150,7 @@ FACTS: Mapping[str, str] = {
     "position": "position",
     "contact": "contact",
     "cut": "wholeness",
+    "cut_sides": "cut_sides",
     "force_band": "force_band",
 }
 """Facts that an answer may name, with their truths."""

@@ -18,6 +18,7 @@ from __future__ import annotations
 import re
 
 from policies.instructions.quantities.numerals import in_digits
+from tacgrasp.lessons.dialogue.multiplied_numbers import with_products
 from tacgrasp.lessons.dialogue.turned_comparisons import turned
 
 AUXILIARY = (
@@ -75,6 +76,7 @@ _SIGNS = (
     (re.compile(r"\b(limit|ceiling) ?[-−] ?(?=(?:the )?force\b)", re.I), r"\1 minus "),
     (re.compile(r" ?(?:>=|≥) ?"), " at least "),
     (re.compile(r" ?(?:<=|≤) ?"), " at most "),
+    (re.compile(r" ?&+ ?"), " and "),
     (re.compile(r" ?> ?"), " more than "),
     (re.compile(r" ?< ?"), " less than "),
 )
@@ -85,6 +87,13 @@ _POLITE = re.compile(
 )
 _PURPOSE = re.compile(
     r",? (?:just the (?:figure|number),? )?so (?:that )?(?:i|we) (?:may|can|could) .*$", re.I
+)
+_CHOICE_TAG = re.compile(r"(?<=\w), (?:no|yes|right|correct)(?=[?.! ]*$)", re.I)
+_ADDED = re.compile(
+    r",? (?:rounded )?(?:to|with) (?:\w+|\d) (?:decimals?|decimal places|digits|"
+    r"significant (?:figures|digits))|"
+    r"\bboth (?=\w+ and (?!\w+ (?:in|is|are)\b))|\beither (?=.* or )|\ball (?=in \w+\W*$)",
+    re.I,
 )
 _NUMBER = r"(?<![\d.,])(\d+(?:\.\d+)?)"
 _FOREIGN = (
@@ -110,24 +119,6 @@ _IN_FOREIGN_UNITS = tuple(
 )
 """Numbers in units that no query has: the unit's size, and the unit that has it."""
 
-_PRESSURE = r"(?:[kmh]?pa|(?:kilo|mega|hecto)?pascals?|psi|bars?|atm)\b"
-_UNREAD = re.compile(
-    rf"(?:{_NUMBER}|\bin|\bof|\bmany)\s*{_PRESSURE}|"
-    r"\b(?:[4-9]|\d\d+) times (?:that|this|the|it|as)\b|"
-    rf"{_NUMBER}\s*(?:%|\w+)?\s+(?:more|extra|less|additional|further)\b(?! than)|"
-    rf"\badd(?:ing|ed)? (?:another |an extra )?{_NUMBER}|"
-    rf"\b(?:increas|rais|reduc|lower)(?:e|es|ed|ing)? (?:\w+ ){{0,3}}?by {_NUMBER}|"
-    rf"^(?:is|are|would|will|does|do|can) {_NUMBER} ?\w+ (?:be |lie |fall )?"
-    r"(?:with)?in(?:side)? (?:the|our) (?:\w+ )?(?:band|window|range)",
-    re.I,
-)
-"""Pressures, multiples, sums of a felt and a named number, and a named force against the band."""
-
-
-def is_beyond(question: str) -> bool:
-    """Whether a question is about what no query has, so that none is near."""
-    return _UNREAD.search(in_digits(question.lower())) is not None
-
 
 def in_words(question: str) -> str:
     """A question with words for its signs, which plain words lack: 'x > 1' is not 'x 1'."""
@@ -146,10 +137,12 @@ def plainer(question: str) -> str:
     text = _metric(" ".join(question.split()))
     if opening := _ADDRESS.match(text):
         text = text[opening.end() :]
-    text = _POLITE_VERB.sub("", text, count=1)
+    text = _ADDED.sub("", _POLITE_VERB.sub("", text, count=1))
     text = _PURPOSE.sub("", _POLITE.sub("give me ", _THANKS.sub("", text), count=1))
     if tag := _TAG.search(text):
         text = _asked(text, tag)
+    if " or " in text:
+        text = _CHOICE_TAG.sub("", text)
     if denied := _DENIED_FIRST.match(text):
         text = f"{_affirmed(denied[0])}{text[denied.end() :]}"
     return turned(text) or question
@@ -157,7 +150,7 @@ def plainer(question: str) -> str:
 
 def _metric(text: str) -> str:
     """A text with words for signs, and numbers in units that queries have."""
-    text = in_words(text)
+    text = with_products(in_words(text))
     digits = in_digits(text.lower())
     known = digits
     for pattern, size, unit in _IN_FOREIGN_UNITS:

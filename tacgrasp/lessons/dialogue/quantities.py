@@ -7,6 +7,7 @@ one, percent with two figures or so. Other units follow from these digits, so th
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -45,6 +46,19 @@ UNITS: Mapping[str, Unit] = {
         Unit(symbol="mm²", dimension="area", size=1.0),
         Unit(symbol="g", dimension="mass", size=1.0),
         Unit(symbol="kg", dimension="mass", size=1000.0),
+        Unit(symbol="m", dimension="length", size=1000.0),
+        Unit(symbol="in", dimension="length", size=25.4),
+        Unit(symbol="thou", dimension="length", size=0.0254),
+        Unit(symbol="kN", dimension="force", size=1000.0),
+        Unit(symbol="kgf", dimension="force", size=9.80665),
+        Unit(symbol="lbf", dimension="force", size=4.4482216),
+        Unit(symbol="ozf", dimension="force", size=0.27801385),
+        Unit(symbol="dyn", dimension="force", size=1e-5),
+        Unit(symbol="cm²", dimension="area", size=100.0),
+        Unit(symbol="in²", dimension="area", size=645.16),
+        Unit(symbol="mg", dimension="mass", size=1e-3),
+        Unit(symbol="lb", dimension="mass", size=453.59237),
+        Unit(symbol="oz", dimension="mass", size=28.349523),
     )
 }
 """Units by symbol. Grams also stand for the force that they weigh."""
@@ -204,13 +218,28 @@ def amount_text(
     shown = round(value, quantity.decimals) + 0.0  # no minus before zeros
     if unit == quantity.unit:
         return f"{shown:{sign}.{quantity.decimals}f} {unit}"
-    converted = _in_unit(quantity, value if unit == "mm²" else shown, unit, scene)
-    if unit == "cm":
-        return f"{converted:{sign}.{quantity.decimals + 1}f} cm"
-    if unit == "kg":
-        return f"{converted:{sign}.3f} kg"
-    decimals = 0 if abs(converted) >= 10 else 1
+    converted = _in_unit(quantity, value if UNITS[unit].dimension == "area" else shown, unit, scene)
+    size = 1 / _in_unit(quantity, 1.0, unit, scene)
+    if unit in ("cm²", "in²"):
+        decimals = 2 if abs(converted) >= 0.1 else 3
+    elif size > 1 and unit != "mm²":
+        decimals = quantity.decimals + math.ceil(math.log10(size) - 1e-9)
+    else:
+        decimals = 0 if abs(converted) >= 10 else 1
     return f"{converted:{sign}.{decimals}f} {unit}"
+
+
+def can_be_in(name: str, unit: str) -> bool:
+    """Whether an answer can give a quantity in a unit.
+
+    A unit of its dimension can be had, of a force also the mass that weighs as much, and of a part
+    of the pad also its area.
+    """
+    if name not in QUANTITIES or unit not in UNITS:
+        return False
+    own, other = UNITS[QUANTITIES[name].unit].dimension, UNITS[unit].dimension
+    is_part = name in ("area", "free_area") and other == "area"
+    return own == other or (own, other) == ("force", "mass") or is_part
 
 
 def percent_text(percent: float) -> str:
@@ -229,8 +258,9 @@ def number_in(text: str) -> float:
 def _in_unit(quantity: Quantity, value: float, unit: str, scene: AskedScene) -> float:
     """A value in another unit; grams of a force are those that weigh as much."""
     base = value * UNITS[quantity.unit].size
-    if unit == "mm²":
-        return base / 100 * scene.sensor.area_mm2
-    if unit == "g" and UNITS[quantity.unit].dimension == "force":
-        return base / GRAVITY_N_PER_G
-    return base / UNITS[unit].size
+    wanted = UNITS[unit]
+    if wanted.dimension == "area":
+        return base / 100 * scene.sensor.area_mm2 / wanted.size
+    if wanted.dimension == "mass" and UNITS[quantity.unit].dimension == "force":
+        return base / GRAVITY_N_PER_G / wanted.size
+    return base / wanted.size

@@ -60,7 +60,7 @@ from tacgrasp.lessons.dialogue.meaning import (
     Why,
 )
 from tacgrasp.lessons.dialogue.plain_words import plain_text
-from tacgrasp.lessons.dialogue.quantities import TIMES
+from tacgrasp.lessons.dialogue.quantities import TIMES, can_be_in
 from tacgrasp.lessons.dialogue.subjects import SUBJECTS
 
 MOST_NUMBERS = 4
@@ -103,7 +103,8 @@ AMOUNTS: Mapping[str, tuple[str, ...]] = {
     **{f"{times} depth": ("mm", "µm") for times in TIMES},
     **{f"{times} holds": ("g",) for times in TIMES},
 }
-"""Units that a quantity can be asked for in."""
+"""Units in which the language model asks for a quantity; others
+(``tacgrasp.lessons.dialogue.quantities.can_be_in``) are told by the question's words alone."""
 
 LESSENED: Mapping[str, tuple[str, ...]] = {
     "depth": ("mm", "µm"),
@@ -113,6 +114,9 @@ LESSENED: Mapping[str, tuple[str, ...]] = {
 
 WORDS = (*CLASSES, "force_band", "action", "side_x", "side_y", "worse_axis", "wholeness")
 """Names of a scene whose value is a word that can be asked for."""
+
+RULED_WORDS = ("cut_sides",)
+"""Others, which rules alone ask for (``tacgrasp.lessons.dialogue.rules``)."""
 
 NEARED = ("depth", "force")
 """Quantities that are compared with a number and its tolerance."""
@@ -162,7 +166,7 @@ _ONE_WORD = re.compile(r"\bone(?=[- ](?:\w+ )?(?:word|sentence|question)\b)")
 _MM = re.compile(r"\bmm\b(?!²|\^)")
 _NUMBER = re.compile(r"(?<= )-?\d\S*")
 _REFERENCE = re.compile(r"#(\d)")
-_NEEDED = re.compile(rf"needed #(\d) ({'|'.join(MASS_UNITS)}) ({'|'.join(NEEDED_IN)})")
+_NEEDED = re.compile(rf"needed #(\d) ({'|'.join(MASS_UNITS)}) (\S+)")
 _LESSENED = re.compile(r"(\w+) - #(\d) (\S+)")
 
 
@@ -319,11 +323,11 @@ def _part(meaning: Meaning, numbers: Sequence[float]) -> str:
             quantity, ()
         ):
             return f"amount {quantity} {_referred(f'- {less.split()[0]}', numbers)} {unit}"
-        case Amount(quantity="needed", unit=unit, of=of) if of and unit in NEEDED_IN:
+        case Amount(quantity="needed", unit=unit, of=of) if of and can_be_in("needed", unit):
             return f"amount {_referred(f'needed {of}', numbers)} {unit}"
-        case Amount(quantity=quantity, unit=unit, less="") if unit in AMOUNTS.get(quantity, ()):
+        case Amount(quantity=quantity, unit=unit, less="") if can_be_in(quantity, unit):
             return f"amount {quantity} {unit}"
-        case Which(name=name, is_open=is_open) if name in WORDS:
+        case Which(name=name, is_open=is_open) if name in (*WORDS, *RULED_WORDS):
             return f"{'word' if is_open else 'choice'} {name}"
         case Check(test=test, denied=denied) if test:
             return f"check {'not ' if denied else ''}{_referred(test, numbers)}"
@@ -348,6 +352,8 @@ def _referred(test: str, numbers: Sequence[float]) -> str:
         for number, candidate in enumerate(numbers[:MOST_NUMBERS], start=1):
             if abs(candidate - value) <= 1e-6 * abs(value):
                 return f"#{number}"
+            if candidate > 0 and abs(candidate + value) <= 1e-6 * candidate:  # counted to the left
+                return f"-#{number}"
         raise LostNumberError(f"{value:g} is none of the question's numbers {list(numbers)}")
 
     return _NUMBER.sub(place, test)
@@ -363,12 +369,12 @@ def _meaning(text: str, numbers: Sequence[float], length: Length) -> Meaning:
             quantity, place, unit = lessened.groups()
             less = taken(quantity, numbers[int(place) - 1], unit)
             return Amount(quantity=quantity, unit=unit, less=less, length=length)
-        case "amount" if needed := _NEEDED.fullmatch(rest):
+        case "amount" if (needed := _NEEDED.fullmatch(rest)) and can_be_in("needed", needed[3]):
             of = f"{number_text(numbers[int(needed[1]) - 1])} {needed[2]}"
             return Amount(quantity="needed", unit=needed[3], of=of, length=length)
-        case "amount" if len(words) > 1 and words[-1] in AMOUNTS.get(" ".join(words[:-1]), ()):
+        case "amount" if len(words) > 1 and can_be_in(" ".join(words[:-1]), words[-1]):
             return Amount(quantity=" ".join(words[:-1]), unit=words[-1], length=length)
-        case "word" | "choice" if rest in WORDS:
+        case "word" | "choice" if rest in (*WORDS, *RULED_WORDS):
             return Which(name=rest, is_open=kind == "word", length=length)
         case "check":
             test = _REFERENCE.sub(lambda m: number_text(numbers[int(m[1]) - 1]), rest)

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 
 from cltp.tactile.sensors import SENSORS, SensorSpec
-from cltp.tactile.states import NO_CONTACT_STATE, ContactState
+from cltp.tactile.states import NO_CONTACT_STATE, ContactState, Side
 from policies.contract_steps import target_of
 from policies.teacher import LESSON_MOVE_STEP_MM, Advice, Reason, teacher
 from primitives.contract import (
@@ -94,6 +94,10 @@ class AskedScene:
             "position": _word(state.position),
             "area": _word(state.area),
             "cut": bool(state.cut),
+            **{f"cut_{side}": side in state.cut for side in Side},
+            "cut_sides": (" and ".join(s for s in Side if s in state.cut) or "none")
+            if touched
+            else None,
             "wholeness": ("cut" if state.cut else "whole") if touched else None,
             "side_x": ("left" if state.x_mm < 0 else "right") if touched else None,
             "side_y": ("fingertip" if state.y_mm < 0 else "palm") if touched else None,

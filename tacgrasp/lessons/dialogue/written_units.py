@@ -11,7 +11,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 
-from tacgrasp.lessons.dialogue.quantities import GRAVITY_N_PER_G, UNITS
+from tacgrasp.lessons.dialogue.quantities import GRAVITY_N_PER_G, UNITS, can_be_in
 
 _SPELLED: Mapping[str, str] = {
     r"mm|millimet(?:re|er)s?": "mm",
@@ -29,8 +29,35 @@ _BEHIND_NUMBER = re.compile(
     "#(?: (?:" + "|".join(f"({spelled})" for spelled in _SPELLED) + r")(?![^ ]))?"
 )
 _GIVEN_UNIT = re.compile(r"#(\d)(?: (?:\+-|-) #(\d))? ([^\s.;]+)")
-_ONE_AMOUNT = re.compile(r"amount ([a-z_ ]+) (\S+?)( in a \w+)?\.")
-_ASKED_UNIT = re.compile(rf"\b(?:in|as|how many) ({'|'.join(_SPELLED)})(?![^ ])")
+_FOREIGN: Mapping[str, tuple[str, ...]] = {
+    r"m|met(?:re|er)s?": ("m",),
+    r"inch(?:es)?": ("in",),
+    r"thou|mils?": ("thou",),
+    r"kn|kilonewtons?": ("kN",),
+    r"kgf|kp|kiloponds?|(?:kilos?|kilograms?) (?:of )?force": ("kgf",),
+    r"lbf|(?:pounds?|lbs?) (?:of )?force": ("lbf",),
+    r"ozf|(?:ounces?|oz) (?:of )?force": ("ozf",),
+    r"pounds?|lbs?": ("lb", "lbf"),
+    r"ounces?|oz": ("oz", "ozf"),
+    r"dyn|dynes?": ("dyn",),
+    r"mg|milligrams?": ("mg",),
+    r"cm²|cm #|(?:square|sq) (?:cm|centimet(?:re|er)s?)": ("cm²",),
+    r"in²|(?:square|sq) inch(?:es)?": ("in²",),
+}
+"""Units that the language model does not ask for, with the units of answers."""
+
+_ASKED: Mapping[str, tuple[str, ...]] = {
+    **_FOREIGN,
+    **{spelled: (unit,) for spelled, unit in _SPELLED.items()},
+}
+_SAID_UNIT = "|".join(_ASKED)
+_ASKED_UNIT = re.compile(
+    rf"\b(?:in|as|how many|how much) (?:(?:plain|whole|full) )?({_SAID_UNIT})(?![^ ])"
+    rf"|(?<!# )(?<![^ ])(?=\w\w)({_SAID_UNIT})$"
+)
+"""A unit that is asked for: behind 'in' or 'how many', or the last word: 'force, lbf'."""
+
+_AMOUNT = re.compile(r"amount (\w+(?: (?!- )[a-z]\w*)?)( #\d \w+)? (\S+?)(?= in a |\.|;|$)")
 _OF_MASSES = re.compile(r"\b(?:slips|stays|holds|mass|spare|needed)\b")
 
 
@@ -71,23 +98,41 @@ def numbers_in_units(query: str, words: str, numbers: Sequence[float]) -> tuple[
     return tuple(scaled)
 
 
-def in_asked_unit(query: str, words: str, units_of: Mapping[str, Sequence[str]]) -> str:
-    """A query for one amount, in the unit that the question asks for.
+def in_asked_unit(query: str, words: str) -> str:
+    """A query for amounts, each in the unit that the question asks for.
 
     Args:
         query: The query.
         words: The question in plain words.
-        units_of: Units that each amount can be asked for in.
+
+    Returns:
+        The query; '' where it is for one amount that is not to be had in the one unit asked for.
     """
-    asked = _ONE_AMOUNT.fullmatch(query)
-    named = {_unit_of(match[1]) for match in _ASKED_UNIT.finditer(words)}
-    if asked is None or len(named) != 1 or not named <= set(units_of.get(asked[1], ())):
-        return query
-    return f"amount {asked[1]} {named.pop()}{asked[3] or ''}."
+    said = [match[1] or match[2] for match in _ASKED_UNIT.finditer(words)]
+    named = list(dict.fromkeys(_units_of(each) for each in said))
+    amounts = list(_AMOUNT.finditer(query))
+    quantities = [amount[1] for amount in amounts]
+    for place, amount in reversed(list(enumerate(amounts))):
+        units = [
+            unit for spelled in named if (unit := _unit_for(amount[1], spelled, amount[3])) != ""
+        ]
+        if len(units) == len(amounts) or (len(units) == 1 == quantities.count(amount[1])):
+            unit = units[place] if len(units) > 1 else units[0]
+            query = f"{query[: amount.start(3)]}{unit}{query[amount.end(3) :]}"
+        elif not units and len(amounts) == len(named) == 1 and ";" not in query:
+            return ""
+    return query
 
 
-def _unit_of(spelled: str) -> str:
-    return next(unit for said, unit in _SPELLED.items() if re.fullmatch(said, spelled))
+def _unit_for(quantity: str, units: Sequence[str], usual: str) -> str:
+    """The first of some units in which a quantity can be given, of its own dimension if any."""
+    fit = [unit for unit in units if can_be_in(quantity, unit)]
+    fit.sort(key=lambda unit: UNITS[unit].dimension != UNITS[usual].dimension)
+    return fit[0] if fit else ""
+
+
+def _units_of(spelled: str) -> tuple[str, ...]:
+    return next(units for said, units in _ASKED.items() if re.fullmatch(said, spelled))
 
 
 def _written(words: str) -> list[str]:

@@ -5,7 +5,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from tacgrasp.lessons import understanding
+from tacgrasp.lessons import joined_questions, understanding
 from tacgrasp.lessons.dialogue.query import read_query
 from tacgrasp.lessons.query_classifier import QueryOdds
 from tacgrasp.lessons.understanding import (
@@ -105,7 +105,7 @@ def test_what_sounds_like_it_is_still_read(question):
 
 def test_what_takes_a_force_for_a_mass_is_not_named(monkeypatch):
     monkeypatch.setattr(Odds, "rival", "check stays #2 g.")
-    asked = understood(Writer("check stays #1 g."), "Is 0.5 N enough to hold 30 g?")
+    asked = understood(Writer("check stays #1 g."), "Does 0.5 N match 30 g?")
     assert asked.query == "check stays #2 g."
 
 
@@ -128,7 +128,8 @@ def test_a_part_that_the_grammar_knows_is_not_lost(monkeypatch, known, query):
     def meant(text, **_):
         return read_query(known[text]) if text in known else None
 
-    monkeypatch.setattr(understanding, "understand", meant)
+    for module in (understanding, joined_questions):
+        monkeypatch.setattr(module, "understand", meant)
     asked = understood(Forgetful(), "How deep is it, and how would its skin feel?")
     assert asked.query == query
 

@@ -193,3 +193,41 @@ def test_a_pressure_is_not_guessed():
 )
 def test_conditions_of_one_clause_get_one_verdict(question, text):
     assert answered(understood(Refusing(), question), HELD).answer.text == text
+
+
+@pytest.mark.parametrize(
+    ("question", "text"),
+    [
+        ("How much is the force in pounds?", "0.187 lbf."),
+        ("Isn't it touching the left edge?", "No, the edge of the pad does not cut it."),
+        (
+            "How deep is it and does it touch the left edge?",
+            "The depth is 0.19 mm; no, the edge of the pad does not cut it.",
+        ),
+        ("Is it neither rough nor deep?", "Yes, the surface is smooth and the press is slight."),
+        ("Neither a cube nor an ellipsoid, right?", "No, it is an ellipsoid."),
+        ("Is it not round but smooth?", "Yes, it is an ellipsoid and the surface is smooth."),
+        ("Is it rough or deep?", "No, the surface is smooth and the press is slight."),
+        (
+            "depth > 0.1 mm or force > 1 N?",
+            "Yes, the depth is 0.19 mm and the force is 0.83 N.",
+        ),
+        ("Is it left or right of the middle?", "It is right of the middle."),
+        ("A cube or a ring, no?", "It is an ellipsoid."),
+        ("Is it either a sphere or an ellipsoid?", "It is an ellipsoid."),
+        ("Is it both smooth and round?", "No, the surface is smooth and it is an ellipsoid."),
+        ("Is the force less than twice 0.2 N?", "No, the force is 0.83 N."),
+        ("leftward > 2 mm", "No, x is +0.8 mm."),
+        ("Is the offset to the tip at least 1 mm?", "Yes, y is -1.2 mm."),
+        ("Force to three decimals.", "0.83 N."),
+    ],
+)
+def test_a_rule_reads_what_the_grammar_does_not_compose(question, text):
+    assert answered(understood(Refusing(), question), HELD).answer.text == text
+
+
+@pytest.mark.parametrize(
+    "question", ["Is it neither zorby nor deep?", "What mass can 0.5 N hold?", "x in pixels"]
+)
+def test_what_no_query_has_is_not_put_to_the_model(question):
+    assert understood(Refusing(), question) is None

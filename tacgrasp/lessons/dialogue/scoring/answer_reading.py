@@ -29,6 +29,19 @@ _UNIT_NAMES: Mapping[str, str] = {
     "mm²": r"mm²|mm\^?2|square millimet(?:re|er)s?|sq\.? mm",
     "g": r"gf?|grams?|grammes?",
     "kg": r"kg|kilograms?",
+    "m": r"m|met(?:re|er)s?",
+    "in": r"in(?=[.;,]|$)|inch(?:es)?",
+    "thou": r"thou|mils?",
+    "kN": r"kN|kilonewtons?",
+    "kgf": r"kgf",
+    "lbf": r"lbf",
+    "ozf": r"ozf",
+    "dyn": r"dyn|dynes?",
+    "cm²": r"cm²|cm\^?2",
+    "in²": r"in²|in\^?2",
+    "mg": r"mg|milligrams?",
+    "lb": r"lbs?|pounds?",
+    "oz": r"oz|ounces?",
 }
 _NUMBER = r"(?<![\w.])([+-]?\d+(?:[.,]\d+)?)"
 _MEASURED = re.compile(

@@ -17,6 +17,7 @@ from tacgrasp.lessons.dialogue.meaning import (
     Which,
     Why,
 )
+from tacgrasp.lessons.dialogue.query import read_query
 from tests.fakes.question_scenes import ASIDE, FIRM, FREE, HELD, LIGHT, SCENES, UNTOUCHED
 
 SAFE = Check(condition="band_low_n <= force_n <= band_high_n", shows=("force_band",))
@@ -169,3 +170,23 @@ def test_no_answer_has_a_wrong_article_or_two_spaces():
             assert text.endswith(".")
             for noun in (" a e", " a o", " a i", " a u", " an s", " an r", " an c", " an m"):
                 assert noun not in f" {text.lower()}", text
+
+
+@pytest.mark.parametrize(
+    ("query", "text"),
+    [
+        ("amount depth in.", "0.0075 in."),
+        ("amount depth m.", "0.00019 m."),
+        ("amount force lbf.", "0.187 lbf."),
+        ("amount force ozf.", "3.0 ozf."),
+        ("amount force kgf.", "0.085 kgf."),
+        ("amount force kN.", "0.00083 kN."),
+        ("amount force kg.", "0.085 kg."),
+        ("amount x in.", "+0.031 in."),
+        ("amount area cm².", "0.37 cm²."),
+        ("amount mass oz.", "0.88 oz."),
+        ("amount needed #1 g lbf.", "0.277 lbf."),
+    ],
+)
+def test_other_units_have_the_digits_of_the_own_one(query, text):
+    assert answer(read_query(query, (60.0,)), HELD).text == text

@@ -2,7 +2,8 @@
 
 import pytest
 
-from tacgrasp.lessons.dialogue.plainer import is_beyond, plainer
+from tacgrasp.lessons.dialogue.plainer import plainer
+from tacgrasp.lessons.dialogue.rules.unread import is_beyond
 
 
 @pytest.mark.parametrize(

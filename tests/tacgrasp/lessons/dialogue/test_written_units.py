@@ -1,7 +1,7 @@
 import pytest
 
 from tacgrasp.lessons.dialogue.query import asked_text
-from tacgrasp.lessons.dialogue.written_units import numbers_in_units
+from tacgrasp.lessons.dialogue.written_units import in_asked_unit, numbers_in_units
 
 
 @pytest.mark.parametrize(
@@ -40,3 +40,37 @@ def test_a_query_that_takes_a_number_for_something_else_is_none(question, query)
 def test_a_hash_of_the_question_itself_changes_nothing():
     asked = asked_text("Is # over 3 N?")
     assert numbers_in_units("check force > #1 N.", "is # over # n", asked.numbers) == asked.numbers
+
+
+@pytest.mark.parametrize(
+    ("question", "query", "told"),
+    [
+        ("depth in inches", "amount depth mm.", "amount depth in."),
+        ("How many pounds of force?", "amount force N.", "amount force lbf."),
+        ("How many pounds can it hold?", "amount holds g.", "amount holds lb."),
+        ("force, lbf", "amount force N.", "amount force lbf."),
+        ("force in kn", "amount force N.", "amount force kN."),
+        ("area in cm²", "amount area mm².", "amount area cm²."),
+        ("How much force in ounces for 60 g?", "amount needed #1 g N.", "amount needed #1 g ozf."),
+        (
+            "Force and depth, in lbf and inches",
+            "amount force N; amount depth mm.",
+            "amount force lbf; amount depth in.",
+        ),
+        (
+            "x in mm and y in inches",
+            "amount x mm; amount y mm.",
+            "amount x mm; amount y in.",
+        ),
+        ("How far is it pressed in?", "amount depth mm.", "amount depth mm."),
+        (
+            "How deep, in one word, in cm?",
+            "amount depth mm in a word.",
+            "amount depth cm in a word.",
+        ),
+        ("force in mm", "amount force N.", ""),
+        ("depth in grams", "amount depth mm.", ""),
+    ],
+)
+def test_an_amount_comes_in_the_unit_asked_for(question, query, told):
+    assert in_asked_unit(query, asked_text(question).words) == told

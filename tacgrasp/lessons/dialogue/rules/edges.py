@@ -1,0 +1,75 @@
+"""Questions about an edge of the pad: whether it cuts the contact, and whether that is near.
+
+    Is it touching the edge?            check cut.
+    Is it touching the left edge?       check cut left.
+    Is it cut off on the palm side?     check cut top.
+    Which edge cuts it?                 word cut_sides.
+    Is it close to the right edge?      check near right.
+
+Not here: whether any edge cuts it, and on which side of the middle it lies (``families.contacts``).
+"""
+
+from __future__ import annotations
+
+import re
+
+_SIDES = {
+    "left": re.compile(r"\bleft(?:most| hand)?\b"),
+    "right": re.compile(r"\bright(?:most| hand)?\b(?! now\b)"),
+    "top": re.compile(r"\b(?:top|upper|palm|palmar|proximal)\b"),
+    "bottom": re.compile(r"\b(?:bottom|lower|tip|fingertip|distal)\b"),
+}
+_TAG_RIGHT = re.compile(
+    r"(?<! the)(?<! on)(?<! at)(?<! to)(?<! or)(?<! and)(?<! from)(?<! is) right$"
+)
+_EDGE = r"(?:edges?|rims?|borders?|boundary|boundaries|margins?)"
+_CUT = (
+    r"(?:cuts?|cutting|clip(?:s|ped|ping)?|crop(?:s|ped|ping)?|truncat(?:es|ed|ing)|chopped|lopped|"
+    r"sliced|trimmed|h[au]ng(?:s|ing)? over|stick(?:s|ing)? out|spill(?:s|ing)?|overhang(?:s|ing)?|"
+    r"run(?:s|ning)? (?:off|over|out)|over the edge|outside|off the (?:pad|edge)|"
+    r"out of the (?:pad|sensor|gel))"
+)
+_MEETS = (
+    r"(?:touch(?:es|ed|ing)?|reach(?:es|ed|ing)?|meets?|meeting|hits?|hitting|cross(?:es|ed|ing)?|"
+    r"overlap(?:s|ping)?|extends?|extending|over|beyond|past|against|across|up to|outside|off)"
+)
+_IS_CUT = re.compile(rf"\b(?:{_CUT}\b|{_MEETS}\b.*\b{_EDGE}\b)")
+_PAD = r"(?:pad|sensor|gel)"
+_MEETS_THE_EDGE = re.compile(
+    r"(?:is|are|does|do) (?:it|we|(?:the|our) (?:contact|object|imprint|patch|print)) (?:.*\b)?"
+    rf"(?:{_MEETS}|at) (?:the|an|any|its) (?:{_PAD} )?{_EDGE}(?: of (?:the|our|your) {_PAD})?"
+)
+_IS_NEAR = re.compile(
+    rf"\b(?:near|nearby|close to|next to|beside|adjacent to|at)\b(?: \w+){{0,2}} {_EDGE}\b"
+)
+_IS_AWAY = re.compile(rf"\b(?:away|far|clear) from\b(?: \w+){{0,2}} {_EDGE}\b")
+_WHICH = re.compile(
+    rf"\b(?:which|what) (?:{_EDGE}|sides?)\b|\bwhere is it (?:cut|clipped|cropped)\b"
+)
+_OPEN = re.compile(
+    r"^(?:how|why|which|what|where|when|who|by how)\b|\bhow (?:far|close|much|many)\b"
+)
+_MOVES = re.compile(r"\b(?:should|shall|must|move|shift|go|because|if)\b")
+_DENIED = re.compile(r"\b(?:not|no part|nothing|never|free of|clear of)\b")
+
+
+def edge_query(words: str) -> str:
+    """The query of a question about an edge, in plain words; '' of any other question."""
+    words = _TAG_RIGHT.sub("", words)
+    if _WHICH.search(words) and _IS_CUT.search(words):
+        return "word cut_sides."
+    if "#" in words or _OPEN.search(words) or _MOVES.search(words):
+        return ""
+    named = [side for side, pattern in _SIDES.items() if pattern.search(words)]
+    denied = "not " if _DENIED.search(words) else ""
+    if not named:
+        return f"check {denied}cut." if _MEETS_THE_EDGE.fullmatch(words) else ""
+    if _IS_CUT.search(words):
+        if len(named) > 1:
+            return "word cut_sides."
+        return f"check {denied}cut {named[0]}."
+    if _IS_AWAY.search(words) and len(named) == 1:
+        return f"check {'' if denied else 'not '}near {named[0]}."
+    if _IS_NEAR.search(words) and len(named) == 1:
+        return f"check {denied}near {named[0]}."
+    return ""

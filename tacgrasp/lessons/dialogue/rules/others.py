@@ -1,0 +1,103 @@
+"""Questions that readers take for others: sides with a sign, the past, and doubts about a word.
+
+leftward > 2 mm                     check x < -#1 mm.
+Which way is it off, sideways?      word side_x.
+Is it deeper than before?           unknown past.
+Is there any shear?                 unknown trait.
+How many dots are there?            unknown trait.
+How wide is the contact?            unknown size.
+Are you sure about the shape?       why shape.
+Should I squeeze more or less?      choice action.
+"""
+
+from __future__ import annotations
+
+import re
+
+_TOWARD = {
+    "left": ("x", "<", "-"), "right": ("x", ">", ""), "tip": ("y", "<", "-"),
+    "fingertip": ("y", "<", "-"), "palm": ("y", ">", ""),
+}  # fmt: skip
+_OFFSET = r"(?:offset|shift|shifted|distance|displacement|deviation|component|off|displaced)"
+_MORE = r"more than|over|above|greater than|larger than|bigger than|exceeds?|beyond"
+_LESS = r"less than|under|below|smaller than"
+_SIDED = re.compile(
+    r"(?:(?:is|does|are) )?(?:(?:the|its|our|it|we) )*"
+    rf"(?:{_OFFSET} (?:(?:to|towards?) (?:the )?)?)?"
+    rf"(?P<side>{'|'.join(_TOWARD)})(?:wards?)?(?: {_OFFSET})?(?: (?:is|by))? "
+    rf"(?:(?P<more>{_MORE})|(?P<less>{_LESS})|(?P<least>at least)|(?P<most>at most)) "
+    r"# (?:mm|millimetres?)"
+)
+_TURNED = {"<": ">", ">": "<"}
+
+_WHICH_WAY = re.compile(r"\b(?:which|what) (?:direction|way|side)\b")
+_SIDEWAYS = re.compile(r"\b(?:horizontal|horizontally|sideways|laterally|along x|in x)\b")
+_LENGTHWISE = re.compile(r"\b(?:vertical|vertically|lengthwise|along y|in y)\b")
+
+_EARLIER = re.compile(
+    r"\bhow long (?:ago|(?:has|have|had|did|was|were)\b)|\bsince (?:(?:the )?(?:last|previous|"
+    r"start|beginning|first)|then|when|yesterday|(?:we|it) (?:touched|started|began|gripped))\b|"
+    r"\b(?:second|moment|while|minute|frame|step)s? ago\b|"
+    r"\b(?:last|previous|prior|former) "
+    r"(?:frame|step|time|touch|reading|second|minute|grasp|contact)\b|"
+    r"\bthan (?:before|earlier|previously|a (?:moment|second|while) ago|just now)\b"
+)
+_CHANGED = re.compile(
+    r"\b(?:increas|decreas|chang|grow|shrink|ris|drift)(?:e|ed|es|ing|en|n|s)?\b|"
+    r"\b(?:got|gotten|getting|become|became|becoming) \w+(?:er)?\b"
+)
+_ASKS_CHANGE = re.compile(
+    r"(?:is|are|was|has|have|had|did|does)\b(?!.*\b(?:should|must|need|band|limit)\b)"
+)
+
+_NOT_NORMAL = re.compile(
+    r"\b(?:shear|shearing|tangential|torque|torques|torsion|moment of force|twisting moment|"
+    r"lateral (?:force|load)|sideways force|friction force)\b"
+)
+_EXTENT = re.compile(
+    r"how (?:long|wide|broad|tall) (?:is|are) (?:the |this |that )?"
+    r"(?:contact|patch|contact patch|imprint|print|footprint|dent|object|thing|it)(?: in \w+)?"
+)
+_COUNTED = re.compile(
+    r"how many (?:dots|stripes|lines|edges|corners|bumps|holes|ridges|sides|points|grooves|pits)\b"
+)
+_DOUBT = re.compile(
+    r"(?:are|how) (?:you )?(?:really |quite |very |so )?(?:sure|certain|confident)(?: are you)?"
+    r"(?: (?:really|at all))? (?:about|of|in|with) (?:(?:the|its|it is|this|that|your) )*"
+    r"(?P<what>shape|texture|depth|position|location|force|area|surface)"
+)
+_REASONS = {"location": "position", "surface": "texture", "force": "felt", "area": "felt"}
+_HARDER_OR_SOFTER = re.compile(
+    r"(?:should|shall|must|do|can|would) (?:i|we|you) .*"
+    r"\b(?:squeeze|press|grip|push|pinch|clamp|hold|tighten)\b.*"
+    r"\b(?:more or less|less or more|harder or \w+|softer or \w+|tighter or \w+|"
+    r"firmer or \w+|stronger or \w+)"
+)
+
+
+def other_query(words: str) -> str:
+    """The query of a question in plain words, if it is one of these; '' of any other one."""
+    if sided := _SIDED.fullmatch(words):
+        return _sided(sided)
+    if _WHICH_WAY.search(words) and bool(_SIDEWAYS.search(words)) != bool(
+        _LENGTHWISE.search(words)
+    ):
+        return "word side_x." if _SIDEWAYS.search(words) else "word side_y."
+    if _EXTENT.fullmatch(words):
+        return "unknown size."
+    if _NOT_NORMAL.search(words) or _COUNTED.match(words):
+        return "unknown trait."
+    if _EARLIER.search(words) or (
+        _ASKS_CHANGE.match(words) and _CHANGED.search(words) and "#" not in words
+    ):
+        return "unknown past."
+    if doubt := _DOUBT.match(words):
+        return f"why {_REASONS.get(doubt['what'], doubt['what'])}."
+    return "choice action." if _HARDER_OR_SOFTER.match(words) else ""
+
+
+def _sided(sided: re.Match[str]) -> str:
+    name, away, minus = _TOWARD[sided["side"]]
+    sign = away if sided["more"] or sided["least"] else _TURNED[away]
+    equal = "=" if sided["least"] or sided["most"] else ""
+    return f"check {name} {sign}{equal} {minus}#1 mm."
