@@ -1,4 +1,4 @@
-"""A contact as the model says it: words from its caption, numbers as the heads read them.
+"""A contact as the model says it: words from its caption and of the heads, numbers of the heads.
 
 Not here: reading such words back from a text (``policies.llm.parse``).
 """
@@ -6,16 +6,20 @@ Not here: reading such words back from a text (``policies.llm.parse``).
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from cltp.encoder.reader import most_probable_state, state_in_words
+from cltp.llm.constrained.decode import DOUBT_BELOW, SlotDecision
 from cltp.llm.generation import Felt, Reply, Talker
 from cltp.tactile.sensors import SensorSpec
 from cltp.tactile.states import CLASSES, NO_CONTACT_STATE, NUMBERS, ContactState
 from policies.llm.grammar import NOTHING_TOUCHES, SURE, caption_grammar
+from policies.llm.pooled_words import penalties, pooled
 from policies.llm.text import CAPTION_REQUEST, caption_text, said_numbers
 
 
@@ -36,7 +40,7 @@ class SpokenContact(NamedTuple):
 def caption_reply(
     talker: Talker, felt: Felt, sensor: SensorSpec | None = None, *, doubt: bool = False
 ) -> Reply:
-    """The model's caption of a contact, with its numbers as the heads read them.
+    """The model's caption of a contact, pooled with the heads' words, and with their numbers.
 
     Args:
         talker: The model.
@@ -46,13 +50,30 @@ def caption_reply(
     """
     state = most_probable_state(felt.readings)
     numbers = said_numbers(state, {}) if state.in_contact else {}
-    return talker.reply_to(
+    say = partial(
+        talker.reply_to,
         felt.touch,
         CAPTION_REQUEST,
         grammar=caption_grammar(sensor, numbers=numbers),
         draft=caption_text(state),
         doubt_below=None if doubt else SURE,
     )
+    reply: Reply = say()
+    agreed = pooled(reply.slots, felt.readings)
+    if any(_is_said_otherwise(reply.slots[name], one, doubt) for name, one in agreed.items()):
+        reply = say(penalties=penalties(reply.slots, agreed))
+    said = {
+        name: replace(agreed[name], rival=own.rival)
+        for name, own in reply.slots.items()
+        if name in agreed and own.chosen == agreed[name].chosen
+    }
+    return replace(reply, slots={**reply.slots, **said})
+
+
+def _is_said_otherwise(own: SlotDecision, agreed: SlotDecision, doubt: bool) -> bool:
+    """Whether a word that was said is not the pooled one, or its doubt is another."""
+    is_doubtful = doubt and agreed.probability < DOUBT_BELOW
+    return own.chosen != agreed.chosen or bool(own.rival) != is_doubtful
 
 
 class CaptionSpeaker:
