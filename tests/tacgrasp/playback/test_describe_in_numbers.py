@@ -21,6 +21,7 @@ from cltp.tactile.sensors import SENSORS
 from cltp.tactile.states import CLASSES, NUMBERS
 from tacgrasp.__main__ import main
 from tacgrasp.playback.describe import (
+    LOWERED,
     NO_INTERVALS,
     RAISED,
     UNCALIBRATED_FORCE,
@@ -166,6 +167,19 @@ def test_a_pad_that_is_pressed_all_over_is_flagged_and_not_called_untouched(
     assert "unreadable: the whole pad is raised" in describe(pressed)[-1]
     assert Flag.RAISED in reader.read(pressed).flags
     assert Flag.RAISED not in reader.read(cloud()).flags
+
+
+def test_a_pad_that_is_lowered_as_a_whole_is_measured_and_flagged(reader: TouchReader) -> None:
+    lowered = cloud_of_pixels(bump(1.0, -2.0, 0.5) - 0.3, MINI)
+    told = describe_in_numbers(lowered, reader)
+    assert told["contact"] is True
+    assert LOWERED in told["flags"]
+    assert LOWERED not in describe_in_numbers(cloud(), reader)["flags"]
+    untouched = cloud_of_pixels(np.full((60, 80), -0.3), MINI)
+    assert describe_in_numbers(untouched, reader)["flags"] == [LOWERED]
+    said = "\n".join(describe(lowered))
+    assert "zero      lost, so don't act on this: a tenth of the pad lies 0.30 mm below" in said
+    assert "force     about" in said
 
 
 @pytest.mark.parametrize("command", [["describe"], ["describe", "--json"], ["ask"]])
