@@ -74,7 +74,7 @@ def describe(cloud: TactileCloud) -> list[str]:
     if is_raised(cloud):
         return [*lines, f"contact   unreadable: {raised_text(cloud)}"]
     if is_lowered(cloud):
-        lines.append(f"zero      lost, so don't act on this: {lowered_text(cloud)}")
+        lines.append(f"zero      don't act on this: {lowered_text(cloud)}")
     if state.depth is None or state.position is None or state.area is None:
         return [*lines, f"contact   none: {NO_CONTACT}"]
     return [
