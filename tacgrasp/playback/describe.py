@@ -10,7 +10,12 @@ from typing import TYPE_CHECKING, Any
 
 from cltp.tactile.cloud import TactileCloud
 from cltp.tactile.contact.raised_pad import is_raised, raised_text
-from cltp.tactile.contact.single_cloud import is_lowered, is_touched, lowered_text
+from cltp.tactile.contact.single_cloud import (
+    is_lowered,
+    is_touched,
+    lowered_text,
+    unseen_mm,
+)
 from cltp.tactile.measure import contact_state
 from cltp.tactile.states import DIMENSIONS, NO_CONTACT_STATE, NUMBERS, ContactState
 from cltp.texts.captions import caption
@@ -22,6 +27,7 @@ if TYPE_CHECKING:
     from primitives.contract import Contract
 
 NO_CONTACT = "nothing touches the gel"
+"""Less deep than ``unseen_mm`` a press may be drift, which a single cloud can't tell from it."""
 
 NO_INTERVALS = "no_intervals"
 """Flag of numbers that were measured directly, without weights."""
@@ -76,7 +82,7 @@ def describe(cloud: TactileCloud) -> list[str]:
     if is_lowered(cloud):
         lines.append(f"zero      don't act on this: {lowered_text(cloud)}")
     if state.depth is None or state.position is None or state.area is None:
-        return [*lines, f"contact   none: {NO_CONTACT}"]
+        return [*lines, f"contact   none: {NO_CONTACT} deeper than {unseen_mm(cloud):.2f} mm"]
     return [
         *lines,
         f"position  {state.position} ({state.x_mm:+.2f}, {state.y_mm:+.2f} mm)",

@@ -14,7 +14,7 @@ import numpy as np
 from cltp.errors import TouchError
 from cltp.tactile.cells import cell_means, filled
 from cltp.tactile.cloud import TactileCloud
-from cltp.tactile.contact.contact_test import touches_alone
+from cltp.tactile.contact.contact_test import drift_alone_mm, touches_alone
 from cltp.tactile.sensor_noise import MINI_SPREAD, SPREADS
 
 LOW_PART = 0.1
@@ -43,6 +43,16 @@ def is_touched(cloud: TactileCloud) -> bool:
             "positive into the gel, with the untouched gel at 0"
         )
     return evidence.in_contact
+
+
+UNSEEN_MM, UNSEEN_DRIFTS = 0.05, 3.0
+"""Depth [mm], and standard deviations of drift besides, within which a press may be taken for drift
+in a single cloud. Source: noise-free balls of 4 to 60 mm, 0.01 to 0.2 mm deep."""
+
+
+def unseen_mm(cloud: TactileCloud) -> float:
+    """Depth up to which a press of a ball may be taken for drift in a single cloud [mm]."""
+    return UNSEEN_MM + UNSEEN_DRIFTS * drift_alone_mm(cloud)
 
 
 def lowered_mm(cloud: TactileCloud) -> float:

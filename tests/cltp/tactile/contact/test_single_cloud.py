@@ -5,7 +5,7 @@ import pytest
 
 from cltp.errors import TouchError
 from cltp.tactile.cloud import TactileCloud, cloud_of_pixels, grid_axes_mm
-from cltp.tactile.contact.single_cloud import is_lowered, is_touched, lowered_text
+from cltp.tactile.contact.single_cloud import is_lowered, is_touched, lowered_text, unseen_mm
 from cltp.tactile.sensor_noise import NoiseUnit, spread_of
 from cltp.tactile.sensors import SENSORS
 
@@ -57,3 +57,28 @@ def test_a_wrong_sign_is_refused_and_the_right_one_is_touched() -> None:
     flipped = pressed(0.45).points_mm * np.float32([1, 1, -1])
     with pytest.raises(TouchError, match="wrong sign"):
         is_touched(TactileCloud(points_mm=flipped, sensor=MINI))
+
+
+@pytest.mark.parametrize("radius_mm", [4.0, 7.5, 15.0, 60.0])
+@pytest.mark.parametrize("drift_mm", [0.0, 0.04])
+def test_a_press_deeper_than_what_may_be_drift_is_told(radius_mm: float, drift_mm: float) -> None:
+    """A cloud without noise shows its lightest presses; beside drift they have to be deeper."""
+    far = np.hypot(X, Y) > 6
+    ripple = drift_mm * np.where(far, np.sin(X) * np.sin(Y), 0.0)  # around the contact alone
+
+    def touched(depth_mm: float) -> bool:
+        heights = np.clip(depth_mm - (X**2 + Y**2) / (2 * radius_mm), 0, None)
+        return is_touched(cloud_of_pixels(heights + ripple, MINI))
+
+    unseen = unseen_mm(cloud_of_pixels(ripple, MINI))
+    assert unseen == pytest.approx(0.17 if drift_mm else 0.065, abs=0.001)
+    assert touched(unseen)
+    assert not touched(0.02 if drift_mm else 0.005)
+
+
+@pytest.mark.parametrize("level", [0.02, 0.15, 1.0])
+def test_drift_of_any_size_is_no_press(level: float) -> None:
+    for seed in range(40):
+        rng = np.random.default_rng(seed)
+        unit = NoiseUnit.draw(rng, level)
+        assert not is_touched(cloud_of_pixels(unit.apply(np.zeros(X.shape), MINI, rng), MINI))
