@@ -12,10 +12,11 @@ import numpy as np
 
 from cltp.sensing.touch_files import read_cloud
 from cltp.tactile.cloud import cloud_from_heights, grid_axes_mm
+from cltp.tactile.contact.single_cloud import is_touched
 from cltp.tactile.sensors import sensor_named
 from tacgrasp.config.layers import load
 from tacgrasp.config.terms import contract_of
-from tacgrasp.playback.describe import describe, describe_by_model, is_touched
+from tacgrasp.playback.describe import describe, describe_by_model
 from tacgrasp.policy_factory import load_llm
 
 SENSOR = sensor_named("gelsight_mini")

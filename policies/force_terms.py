@@ -6,6 +6,7 @@ Not here: what the configuration says beside them (``policies.contract``).
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
@@ -138,8 +139,13 @@ def _check(forces: Sequence[Force], values: list[float], most: float, least: flo
 
 
 def words_of(forces: Sequence[Force]) -> str:
-    """The words that name forces, each once."""
-    return ", ".join(dict.fromkeys(force.words for force in forces))
+    """The words that name forces, each once; newtons with a capital, as they are written."""
+    words = ", ".join(dict.fromkeys(force.words for force in forces))
+    return _NEWTONS.sub(r"\1N", words)
+
+
+_NEWTONS = re.compile(r"(?<=\d)(\s*(?:k|c|d|da|m|µ)?)n\b")
+"""A number of newtons in a plain text, whose letters are all small."""
 
 
 def _around(forces: Sequence[Force], least_n: float) -> Band:

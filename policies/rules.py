@@ -10,6 +10,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from cltp.tactile.cloud import TactileCloud
+from cltp.tactile.contact.raised_pad import is_raised, raised_text
 from cltp.tactile.measure import contact_state
 from cltp.tactile.states import ContactState
 from policies.contract_steps import refuted, target_of
@@ -57,6 +58,10 @@ class RulesPolicy:
             LimitError: The contract is refused.
         """
         times_s = [self._clock()]
+        if observation.in_contact is None and is_raised(observation.cloud):  # a run has refused it
+            _ = contract.terms  # a refused one ends here
+            unread = f"What is felt can't be read: {raised_text(observation.cloud)}"
+            return Decision(text=f"{unread}.", action=None, success=False, reason=unread)
         if self._measure is not None:
             state = self._measure(observation.cloud)
         else:

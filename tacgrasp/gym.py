@@ -18,7 +18,6 @@ from __future__ import annotations
 
 import math
 import threading
-from dataclasses import asdict
 from queue import SimpleQueue
 from typing import Any
 
@@ -37,10 +36,12 @@ from tacgrasp.base.errors import UsageError
 from tacgrasp.config.layers import load
 from tacgrasp.config.schema import RunConfig
 from tacgrasp.config.terms import contract_of
+from tacgrasp.episodes.record import TruthFacts
 from tacgrasp.rig.factory import make_rig
 from tacgrasp.rig.gel_sense import GelSense
 from tacgrasp.run import run_unrecorded
 from tacgrasp.runtime.outcome import EndOfEpisode, EndReason, Outcome
+from tacgrasp.runtime.shutdown import read_truth
 
 try:
     import gymnasium
@@ -52,6 +53,9 @@ STRAWBERRY = "tacgrasp/Strawberry-v0"
 
 ACTIONS: tuple[Primitive | None, ...] = (*Primitive, None)
 """The action of each number; None declares that the grasp is good."""
+
+DECLARE = "declare the grasp good"
+"""The last action in words."""
 
 CELLS = 16
 """Rows and columns of ``heights``."""
@@ -106,12 +110,16 @@ class StrawberryEnv(gymnasium.Env[Any, Any]):
         """Draw a berry and close the fingers until it is felt.
 
         Raises:
-            UsageError: An unknown option.
+            UsageError: An unknown option, or a seed that is none.
         """
         super().reset(seed=seed)
         options = options or {}
         if unknown := options.keys() - {"seed"}:
             raise UsageError(f"reset knows the option seed alone, got {sorted(unknown)}")
+        if "seed" in options and _whole(options["seed"]) is None:
+            raise UsageError(
+                f"the option seed is a whole number, 0 or more, got {options['seed']!r}"
+            )
         while True:  # a berry that is missed twice ends before the agent is asked
             world = options.get("seed", int(self.np_random.integers(BENCHMARK_SEED)))
             self.close()
@@ -125,10 +133,18 @@ class StrawberryEnv(gymnasium.Env[Any, Any]):
         return self._last, self._info(None)
 
     def step(self, action: int) -> tuple[dict[str, np.ndarray], float, bool, bool, dict[str, Any]]:
-        """Carry one action out, within contract and limits, and feel what came of it."""
+        """Carry one action out, within contract and limits, and feel what came of it.
+
+        Raises:
+            UsageError: No episode goes on, or no action has this number; nothing moves.
+        """
         if self._episode is None:
             raise UsageError("the episode has ended; call reset first")
-        self._episode.act(ACTIONS[int(action)])
+        number = _whole(action)
+        if number is None or number >= len(ACTIONS):
+            known = ", ".join(f"{i} {each or DECLARE}" for i, each in enumerate(ACTIONS))
+            raise UsageError(f"an action is one of {known}; got {action!r}")
+        self._episode.act(ACTIONS[number])
         asked = self._episode.next()
         reward, before = -STEP_COST, self._potential
         if isinstance(asked, Outcome):
@@ -153,7 +169,7 @@ class StrawberryEnv(gymnasium.Env[Any, Any]):
     def _info(self, outcome: Outcome | None) -> dict[str, Any]:
         assert self._episode is not None
         info: dict[str, Any] = {
-            "truth": asdict(self._episode.rig.truth()) if outcome is None else outcome.truth,
+            "truth": self._episode.truth() if outcome is None else outcome.truth,
             "world": self._episode.config.seed,
         }
         if outcome is not None:
@@ -181,6 +197,15 @@ class StrawberryEnv(gymnasium.Env[Any, Any]):
         touch = np.clip(np.array(values, np.float32), -10, 10)
         arrays = {"heights": heights_on_grid(observation.cloud), "touch": touch}
         return arrays, _potential(state, force.value if force else None, contract)
+
+
+def _whole(number: object) -> int | None:
+    """A whole number from 0 on, of Python or numpy, a scalar array too; None for anything else."""
+    if isinstance(number, np.ndarray) and number.ndim == 0:
+        number = number[()]
+    if isinstance(number, bool) or not isinstance(number, int | np.integer):
+        return None
+    return int(number) if number >= 0 else None
 
 
 def heights_on_grid(cloud: TactileCloud) -> np.ndarray:
@@ -234,6 +259,10 @@ class _Episode:
         self._actions: SimpleQueue[Primitive | EndOfEpisode | None] = SimpleQueue()
         self._thread = threading.Thread(target=self._run, name="episode", daemon=True)
         self._thread.start()
+
+    def truth(self) -> TruthFacts | None:
+        """The simulator's truth now, by the names of the end's and of episode files."""
+        return read_truth(self.rig, self.config.verify)
 
     def next(self) -> tuple[Observation, Contract] | Outcome:
         """The next question to the agent, or the end."""

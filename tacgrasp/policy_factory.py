@@ -2,17 +2,25 @@
 
 from __future__ import annotations
 
+import logging
 import os
-from collections.abc import Callable
+import traceback
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import policies
 from cltp import TouchError
-from policies import Policy, PolicyError
+from policies import Decision, Observation, Policy, PolicyError, checked
+from primitives import LimitError, RobotError
+from primitives.contract import Contract
 from tacgrasp.base.errors import UsageError
 from tacgrasp.base.plugins import load_plugin, names_with, plugins
 from tacgrasp.config.schema import RunConfig
+from tacgrasp.runtime.outcome import EndOfEpisode
+
+log = logging.getLogger(__name__)
 
 if TYPE_CHECKING:
     from policies.llm.policy import LlmPolicy
@@ -217,7 +225,67 @@ def _of_plugin(name: str, config: RunConfig) -> Policy:
     missing = [part for part in ("name", "decide", "start") if not hasattr(policy, part)]
     if missing:
         raise UsageError(f"the plugin {title} made a policy without {', '.join(missing)}")
-    return policy
+    return PluginPolicy(policy, title)
+
+
+class PluginPolicy:
+    """A plugin's policy, whose own faults are named as the plugin's: a ``PolicyError`` each.
+
+    Args:
+        policy: The policy.
+        title: The plugin in a message.
+    """
+
+    def __init__(self, policy: Policy, title: str) -> None:
+        self._policy, self._title = policy, title
+        if callable(twin := getattr(policy, "twin", None)):
+            self.twin = lambda: PluginPolicy(twin(), title)
+
+    @property
+    def name(self) -> str:
+        return self._policy.name
+
+    def start(self) -> None:
+        """Begin an episode.
+
+        Raises:
+            PolicyError: The plugin raised something else.
+        """
+        with self._named("start"):
+            self._policy.start()
+
+    def decide(self, observation: Observation, contract: Contract) -> Decision:
+        """Decide, as ``policies.Policy``.
+
+        Raises:
+            PolicyError: Also where the plugin raised something else, or gave no sound Decision.
+        """
+        with self._named("decide"):
+            reply = self._policy.decide(observation, contract)
+        try:
+            return checked(reply)
+        except PolicyError as error:
+            raise PolicyError(f"the plugin {self._title}: {error}") from None
+
+    @contextmanager
+    def _named(self, function: str) -> Iterator[None]:
+        try:
+            yield
+        except (PolicyError, TouchError, LimitError, RobotError, EndOfEpisode):
+            raise
+        except Exception as error:  # of foreign code, which is no bug of ours
+            log.debug("%s of the plugin %s raised", function, self._title, exc_info=True)
+            reason = " ".join(f"{type(error).__name__}: {error}".split())
+            raise PolicyError(
+                f"the plugin {self._title} is broken: its {function} raised {reason}"
+                f"{_place_of(error)}"
+            ) from error
+
+
+def _place_of(error: Exception) -> str:
+    """File and line of foreign code that raised."""
+    last = traceback.extract_tb(error.__traceback__)[-1]
+    return f" ({Path(last.filename).name}, line {last.lineno})"
 
 
 def policy_maker(config: RunConfig) -> Callable[[], Policy]:

@@ -88,6 +88,10 @@ def read_header(folder: Path) -> dict[str, Any]:
     except NotADirectoryError:
         raise TouchError(f"{folder} is a file; expected the folder of a data set") from None
     except FileNotFoundError:
+        if not folder.exists():
+            raise TouchError(
+                f"{folder} is no data set of contacts: there is no such folder"
+            ) from None
         raise TouchError(f"{folder} is no data set of contacts: dataset.json is missing") from None
     except OSError as error:
         raise TouchError(f"{path} can't be read: {error.strerror or error}") from None

@@ -97,9 +97,13 @@ def _check(points: NDArray[np.float32], sensor: SensorSpec) -> None:
             f"{int((~finite).sum())} of {len(points)} points are NaN or infinite; drop them first"
         )
     if len(points) < MIN_POINTS:
-        raise TouchError(f"the cloud has {len(points)} points; at least {MIN_POINTS} are needed")
+        number = "1 point" if len(points) == 1 else f"{len(points)} points"
+        raise TouchError(f"the cloud has {number}; at least {MIN_POINTS} are needed")
     half = np.array([sensor.width_mm / 2, sensor.height_mm / 2])
-    extent = float(np.ptp(points[:, :2], axis=0).max())
+    extents = np.ptp(points[:, :2], axis=0)
+    extent = float(extents.max())
+    if extent == 0:
+        raise TouchError(f"all {len(points)} points of the cloud lie at one place on the pad")
     if extent < 0.02 * max(sensor.width_mm, sensor.height_mm):
         raise TouchError(
             f"the cloud spans only {extent:.3g} in x and y where {sensor.name} sees "
@@ -107,16 +111,31 @@ def _check(points: NDArray[np.float32], sensor: SensorSpec) -> None:
         )
     if (np.abs(points[:, :2]) > half + 0.05 * half).any():
         x, y = np.abs(points[:, :2]).max(axis=0)
+        is_finer = extent > _FINER * max(sensor.width_mm, sensor.height_mm)
         raise TouchError(
             f"the cloud reaches |x| {x:.1f}, |y| {y:.1f} mm, beyond the sensing area of "
-            f"{sensor.name} (±{half[0]:.1f}, ±{half[1]:.1f} mm around its centre); wrong sensor or "
-            "frame?"
+            f"{sensor.name} (±{half[0]:.1f}, ±{half[1]:.1f} mm around its centre); "
+            + (_IN_MICRONS if is_finer else "wrong sensor or frame?")
+        )
+    if extents.min() < 0.02 * min(sensor.width_mm, sensor.height_mm):
+        x, y = extents
+        raise TouchError(
+            f"the points lie on a line: the cloud spans {x:.3g} mm in x and {y:.3g} mm in y where "
+            f"{sensor.name} sees {sensor.width_mm:.1f}×{sensor.height_mm:.1f} mm"
         )
     deepest = float(np.abs(points[:, 2]).max())
     if deepest > sensor.gel_mm:
+        hint = f"; {_IN_MICRONS}" if deepest > _FINER * sensor.gel_mm else ""
         raise TouchError(
-            f"indentation of {deepest:.2f} mm exceeds the {sensor.gel_mm} mm gel of {sensor.name}"
+            f"indentation of {deepest:.2f} mm exceeds the {sensor.gel_mm} mm gel of "
+            f"{sensor.name}{hint}"
         )
+
+
+_FINER = 10.0
+"""Size over what a sensor can show from which a cloud seems to be in a finer unit. Our choice."""
+
+_IN_MICRONS = "is it in µm? Divide by 1000"
 
 
 def checked_heights(height_mm: NDArray[np.floating]) -> FloatArray:

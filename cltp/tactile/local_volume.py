@@ -18,6 +18,7 @@ from scipy import ndimage
 
 from cltp.tactile.cells import quadratic_basis, smoothed
 from cltp.tactile.cloud import FloatArray, grid_axes_mm
+from cltp.tactile.sensor_noise import MINI_SPREAD, SPREADS
 from cltp.tactile.sensors import SensorSpec
 
 BoolArray = NDArray[np.bool_]
@@ -37,6 +38,9 @@ contacts of 0.1 to 0.2 N then read 4 % lower than with 1."""
 SCALE_MM = 1.6
 """Width of the inner Gaussian of the local response [mm], about half that of a light contact."""
 
+SLOPE_SCALE_MM = 0.6
+"""Width of the Gaussian that heights are smoothed with before their slope is taken [mm]."""
+
 REACH_MM = 2.0
 """The deepest cells within this distance of the strongest response give the depth [mm]."""
 
@@ -44,9 +48,22 @@ RIM_MM = 1.0
 """Width of the ring around a contact that the background is not fitted to [mm]."""
 
 LEAST_OUTSIDE = 0.15
-"""Least fraction of cells outside a contact that a background is fitted to; with fewer, 0 is it.
-The first guess of the background is the median: a sensor that loses the zero shows no contact that
-covers nearly all of it, and this has no volume."""
+"""Least fraction of cells outside a contact that a background is fitted to; with fewer, 0 is it."""
+
+LOW_PART, ZERO_DRIFTS, LEAST_ZERO_MM = 0.02, 2.0, 0.08
+"""Where the median lies further above zero than drift does, and this part of the pad does not, a
+contact covers the most of the pad: the median is on it, and the cloud's own zero is the background.
+Drift as of a pad that is raised (``cltp.tactile.contact.raised_pad``), which has no such part. A
+sensor that loses the zero has the median at 0, and shows too little of such a contact."""
+
+WIDE_RESPONSE_MM = 0.07
+"""Least local response of such a contact [mm]; a ball of 100 mm has it. Source: 99 of 100 fields of
+drift of 0.3 mm over 15 mm, the broadest of a unit that was left nearly alone, respond with less."""
+
+WIDE_SLOPE = 0.035
+"""Least slope of its edge, where it leaves the drift [mm per mm]; a ball of 130 mm has it. Our
+choice: a light contact on a pad that is tilted or broadly raised has the slope of these around it,
+0.028 along either axis in the same drift."""
 
 _DEEPEST_CELLS = 3
 
@@ -71,9 +88,12 @@ def local_contact(cells_mm: FloatArray, sensor: SensorSpec) -> LocalContact:
         cells_mm: Shape (n, n), mean indentation in equal cells of the sensing area [mm].
         sensor: The sensor.
     """
-    near = _near_strongest(cells_mm, sensor)
+    near, response_mm = _near_strongest(cells_mm, sensor)
     noise_mm = NOISE_FACTOR * white_noise_mm(cells_mm)
-    background: FloatArray | float = float(np.median(cells_mm))
+    is_wide = response_mm >= WIDE_RESPONSE_MM and _is_mostly_raised(cells_mm, sensor)
+    if is_wide:  # near the strongest response of a flat top is any of its places
+        near = np.ones_like(near)
+    background: FloatArray | float = 0.0 if is_wide else float(np.median(cells_mm))
     for is_last in (False, True):
         local = cells_mm - background
         depth = float(np.sort(local[near])[-_DEEPEST_CELLS:].mean())
@@ -83,11 +103,26 @@ def local_contact(cells_mm: FloatArray, sensor: SensorSpec) -> LocalContact:
         if region == 0:
             return LocalContact(heights_mm=local, volume_mm3=0.0)
         contact = regions == region
-        if not is_last:
+        if not is_last and not is_wide:
             background = _background(cells_mm, contact, sensor)
     cell_mm2 = sensor.area_mm2 / cells_mm.size
     volume_mm3 = float((local[contact] - level).sum() * cell_mm2)
     return LocalContact(heights_mm=local, volume_mm3=volume_mm3)
+
+
+def _is_mostly_raised(cells_mm: FloatArray, sensor: SensorSpec) -> bool:
+    """Whether the most of the pad stands out of the cloud's own zero, and not all of it."""
+    drift_mm = SPREADS.get(sensor.name, MINI_SPREAD).drift_mm
+    most_mm = max(ZERO_DRIFTS * drift_mm, LEAST_ZERO_MM)
+    low_mm, median_mm = np.quantile(cells_mm, (LOW_PART, 0.5))
+    if median_mm <= most_mm or abs(low_mm) > most_mm:
+        return False
+    smooth = smoothed(cells_mm, sensor, SLOPE_SCALE_MM)
+    rows, columns = cells_mm.shape
+    down, across = np.gradient(smooth, sensor.height_mm / rows, sensor.width_mm / columns)
+    stands = smooth > most_mm
+    edge = stands & ~ndimage.binary_erosion(stands, border_value=1)
+    return bool(edge.any() and np.median(np.hypot(down, across)[edge]) >= WIDE_SLOPE)
 
 
 def white_noise_mm(heights_mm: FloatArray) -> float:
@@ -101,16 +136,18 @@ def white_noise_mm(heights_mm: FloatArray) -> float:
     return 1.4826 * float(np.median(np.abs(inner - around / 4))) / math.sqrt(1.25)
 
 
-def _near_strongest(heights_mm: FloatArray, sensor: SensorSpec) -> BoolArray:
-    """Cells near the strongest response of a band filter; a plane is taken away before."""
+def _near_strongest(heights_mm: FloatArray, sensor: SensorSpec) -> tuple[BoolArray, float]:
+    """Cells near the strongest response of a band filter less a plane, and that response [mm]."""
     everywhere = np.ones_like(heights_mm, dtype=bool)
     plane = _fitted(quadratic_basis(len(heights_mm), sensor)[:, :3], heights_mm, everywhere)
     inner, outer = (
         smoothed(heights_mm - plane, sensor, scale) for scale in (SCALE_MM, 2 * SCALE_MM)
     )
-    row, column = np.unravel_index(int((inner - outer).argmax()), heights_mm.shape)
+    responses = inner - outer
+    row, column = np.unravel_index(int(responses.argmax()), heights_mm.shape)
     x, y = grid_axes_mm(sensor, *heights_mm.shape)
-    return np.asarray(np.hypot(x[None, :] - x[column], y[:, None] - y[row]) < REACH_MM)
+    near = np.hypot(x[None, :] - x[column], y[:, None] - y[row]) < REACH_MM
+    return np.asarray(near), float(responses[row, column])
 
 
 def _background(

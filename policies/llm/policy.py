@@ -65,6 +65,7 @@ felt by test. Source: 309 observations of fruit with taxels; nine in ten of thei
 directly it is 0.3 mm throughout."""
 
 _FORCE = NUMBERS.index("force_n")
+_LESS = f"<{Primitive.DECREASE_FORCE}>"
 
 
 class SaidStep(NamedTuple):
@@ -202,7 +203,10 @@ class LlmPolicy:
             return self._directly(unread, observation, force_n, barred, reply)
         is_raised = Flag.RAISED in said.reading.flags  # what presses all over can't be felt
         if flags and not is_raised and felt is not None and felt.value < force_n.low:
-            return firmer(flags, felt, force_n)
+            return by_felt_force(flags, felt, force_n)
+        is_deep = set(said.reading.flags) == {Flag.RANGE}  # felt directly, it still has a force
+        if is_deep and felt is not None and felt.value > force_n.high and _LESS not in barred:
+            return by_felt_force(flags, felt, force_n)
         hold = flags or hold_reason(reply, extraction, self._abstain_below)
         if not hold:
             self._remember(extraction.action)
@@ -399,15 +403,19 @@ def unread_reason(reading: TouchReading, in_contact: bool | None) -> str:
     return flag_reason(reading)
 
 
-def firmer(flags: str, felt: Interval, force_n: Band) -> Decision:
-    """The decision on a contact that can't be read, and whose felt force is below the target.
+def by_felt_force(flags: str, felt: Interval, force_n: Band) -> Decision:
+    """The decision on a contact that can't be read, and whose felt force is off the target.
 
-    It goes on with the approach, whose force is felt directly: a firmer contact can be read.
+    Below it goes on with the approach, whose force is felt directly: a firmer contact can be read.
+    Above, one that is too deep to be read is let go of.
     """
-    reason = f"{flags}; {felt.value:.2f} N is felt directly, below {force_n.low:.2f} N"
+    is_below = felt.value < force_n.low
+    side = f"below {force_n.low:.2f}" if is_below else f"above {force_n.high:.2f}"
+    action = Primitive.INCREASE_FORCE if is_below else Primitive.DECREASE_FORCE
+    reason = f"{flags}; {felt.value:.2f} N is felt directly, {side} N"
     return Decision(
-        text=f"{reason[0].upper()}{reason[1:]}. Action: <{Primitive.INCREASE_FORCE}>.",
-        action=Primitive.INCREASE_FORCE,
+        text=f"{reason[0].upper()}{reason[1:]}. Action: <{action}>.",
+        action=action,
         success=False,
         reason=reason,
     )

@@ -87,6 +87,8 @@ def _is_figures(text: str) -> bool:
         return True
     if isinstance(content, dict) and content.keys() >= {"about", "results"}:
         return True  # a long benchmark's, of a version without the key: --resume goes on with it
+    if isinstance(content, list) and content and isinstance(content[0], dict):
+        return content[0].get("event") == "contract"
     try:
         first = json.loads(text.partition("\n")[0])
     except ValueError:

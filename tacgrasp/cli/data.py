@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Any
 
+from tacgrasp.base.counted import counted
 from tacgrasp.cli import data_tools
 from tacgrasp.cli.flags import run_subcommand
 from tacgrasp.datasets.requests import GenerateRequest, ImportRequest
@@ -23,7 +24,7 @@ def import_table(request: ImportRequest) -> None:
     from tacgrasp.datasets.import_touches import import_touches
 
     counts, out = import_touches(request), make_console()
-    out.print(f"written   {request.out}: {counts.contacts} contacts")
+    out.print(f"written   {request.out}: {counted(counts.contacts, 'contact')}")
     for slot in counts.given:
         out.print(
             f"{slot:9} {counts.given[slot]} given, {counts.measured[slot]} measured, "

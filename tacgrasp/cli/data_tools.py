@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import tyro
 
 from cltp.atomic_write import replacing
+from tacgrasp.base.counted import counted
 from tacgrasp.base.errors import UsageError
 from tacgrasp.base.result_file import check_ending, write_result
 from tacgrasp.cli.flags import writable
@@ -124,7 +125,7 @@ def verify(flags: VerifyFlags) -> int:
     if num_wrong > SHOWN_PROBLEMS:
         out.print(f"... and {num_wrong - SHOWN_PROBLEMS} more")
     verdict = f"{num_wrong} problem{'s' if num_wrong > 1 else ''}" if num_wrong else "nothing wrong"
-    out.print(f"{flags.folder}: {checked:,} contacts checked, {verdict}")
+    out.print(f"{flags.folder}: {counted(checked, 'contact')} checked, {verdict}")
     return 1 if num_wrong else 0
 
 
@@ -177,7 +178,9 @@ def gallery(flags: GalleryFlags) -> None:
     _, indices = flags.draw()
     _save(lambda path: write_gallery(flags.folder, indices, path, seed=flags.seed), flags.out)
     size = flags.out.stat().st_size / 1e6
-    make_console().print(f"written   {flags.out}: {len(indices)} contacts, {size:.1f} MB")
+    make_console().print(
+        f"written   {flags.out}: {counted(len(indices), 'contact')}, {size:.1f} MB"
+    )
 
 
 @dataclass(frozen=True, kw_only=True)

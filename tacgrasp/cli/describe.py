@@ -46,6 +46,7 @@ def main(argv: Sequence[str]) -> int:
     flags = parse(DescribeFlags, argv, prog="tacgrasp describe")
     from cltp.sensing.touch_files import path_in_errors, read_cloud
     from cltp.tactile.contact.raised_pad import is_raised
+    from cltp.tactile.contact.single_cloud import is_touched
     from cltp.tactile.sensors import sensor_named
     from tacgrasp.config.layers import load
     from tacgrasp.config.terms import contract_of
@@ -54,7 +55,6 @@ def main(argv: Sequence[str]) -> int:
         describe,
         describe_by_model,
         describe_in_numbers,
-        is_touched,
         make_reader,
     )
     from tacgrasp.policy_factory import default_weights, load_llm, shipped_weights

@@ -144,9 +144,11 @@ def contacts_in(folder: Path, *, command: str) -> Path:
         UsageError: It holds none; the message names the command that makes them.
     """
     if not (folder / "dataset.json").is_file():
+        lacks = (
+            "holds no contacts (dataset.json is missing)" if folder.exists() else "does not exist"
+        )
         raise UsageError(
-            f"--data {folder} holds no contacts (dataset.json is missing); make them: {command} "
-            f"--out {folder}, or name another folder"
+            f"--data {folder} {lacks}; make them: {command} --out {folder}, or name another folder"
         )
     return folder
 

@@ -50,7 +50,8 @@ class RunFlags(RunConfig):
     Attributes:
         print_config: Print every value and its source, then the contract, and do nothing else.
         allow_uncalibrated_force: Grasp on real devices without a force calibration of the sensor.
-        events: File for the contract, every step and the end, one JSON object a line.
+        events: File for the contract, every step and the end: F.json, an array of them, or F.jsonl,
+            one JSON object a line.
         verbose: Print each step whole: all of D_t, the commands as sent, the durations.
         view: Show the run live in rerun's viewer: gel, forces, arm (needs the extra 'view').
     """

@@ -21,6 +21,7 @@ from cltp.tactile.picture import DEPTH_STOPS_MM, depth_picture, depth_scale, pic
 from cltp.tactile.sensors import sensor_named
 from cltp.tactile.states import DIMENSIONS, ContactState
 from cltp.texts.contact_texts import texts_of
+from tacgrasp.base.counted import counted
 from tacgrasp.base.html_page import render_page
 from tacgrasp.datasets.contact_sheet import ambiguous_dimensions
 from tacgrasp.datasets.stats import MIN_CLASS_FRACTION, UNKNOWN, DataStats, stats
@@ -46,7 +47,7 @@ def write_gallery(folder: Path, indices: Sequence[int] | NDArray, path: Path, *,
     states = [data.state(int(index)) for index in indices]
     page = render_page(
         "datasets/templates/gallery.html",
-        title=f"{folder.name}: {counts.contacts:,} contacts",
+        title=f"{folder.name}: {counted(counts.contacts, 'contact')}",
         facts=_facts(counts, len(indices), seed),
         stats=counts,
         panels=[_panel(dimension, counts, states) for dimension in DIMENSIONS],

@@ -8,6 +8,7 @@ number of machines can make the missing ones, and the result is that of an undis
 from __future__ import annotations
 
 import json
+import logging
 import re
 from collections.abc import Iterator, Mapping
 from concurrent.futures import as_completed
@@ -28,6 +29,8 @@ from tacgrasp.datasets.card import write_card
 from tacgrasp.datasets.cluster import Cluster, cluster_at
 from tacgrasp.datasets.recipes import DatasetRecipe, make_packed, recipe
 from tacgrasp.datasets.requests import GenerateRequest
+
+log = logging.getLogger(__name__)
 
 
 def generate(request: GenerateRequest, console: Console | None = None) -> None:
@@ -137,8 +140,12 @@ def _make_shards(jobs: list[_Job], plan: DatasetRecipe, workers: int) -> Iterato
         return
     try:
         with worker_pool(workers) as pool:
-            for future in as_completed([pool.submit(_make_shard, job, plan) for job in jobs]):
-                yield future.result()
+            try:
+                for future in as_completed([pool.submit(_make_shard, job, plan) for job in jobs]):
+                    yield future.result()
+            except KeyboardInterrupt:
+                log.warning("stopping, once the workers have; the same command goes on from there")
+                raise
     except BrokenProcessPool as error:
         raise TouchError(
             "a worker that made contacts was killed (out of memory?); the same command goes on "
@@ -173,6 +180,7 @@ def _open(out: Path, about: Mapping[str, str]) -> None:
         UsageError: The folder was made by another command.
         TouchError: The folder is not a data set of this version, or can't be written.
     """
+    _check_own(out)
     try:
         DatasetWriter(out, about=about)
         stored = json.loads((out / "dataset.json").read_text()).get("about", {})
@@ -187,6 +195,26 @@ def _open(out: Path, about: Mapping[str, str]) -> None:
         raise UsageError(
             f"{out} holds the data of another command: {', '.join(differing)}; "
             "choose another folder or delete this one"
+        )
+
+
+def _check_own(out: Path) -> None:
+    """Check that nothing of somebody else's lies in a folder that is no data set yet.
+
+    Raises:
+        UsageError: Files lie there, which shards and card would be mixed with.
+        TouchError: The folder can't be read.
+    """
+    if not out.is_dir() or (out / "dataset.json").exists():
+        return
+    try:
+        others = sorted(each.name for each in out.iterdir() if each.suffix != ".part")
+    except OSError as error:
+        raise TouchError(f"can't write contacts to {out}: {error}") from error
+    if others and not others[0].startswith("shard-"):
+        raise UsageError(
+            f"--out {out} is no data set and holds other files ({others[0]}"
+            f"{', …' if len(others) > 1 else ''}); name a new folder or an empty one"
         )
 
 

@@ -16,6 +16,7 @@ from rich.text import Text
 
 from cltp.data.dataset import NUMBER_COLUMNS, ContactDataset
 from cltp.tactile.states import DIMENSIONS
+from tacgrasp.base.counted import counted
 
 QUANTILES = (0.0, 0.05, 0.25, 0.5, 0.75, 0.95, 1.0)
 UNKNOWN = "(unknown)"
@@ -108,7 +109,7 @@ def as_json(counts: DataStats) -> dict[str, Any]:
 
 def show(counts: DataStats, console: Console) -> None:
     """Print tables with bars."""
-    console.print(f"{counts.contacts:,} contacts in {counts.series:,} series")
+    console.print(f"{counted(counts.contacts, 'contact')} in {counts.series:,} series")
     if counts.missing:
         console.print(
             f"INCOMPLETE: {counts.missing:,} contacts are missing; run the same generate again"

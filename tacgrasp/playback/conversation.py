@@ -12,6 +12,7 @@ from cltp.encoder.reader import reading_of
 from cltp.llm.generation import Talker
 from cltp.tactile.cloud import TactileCloud
 from cltp.tactile.contact.raised_pad import is_raised, raised_text
+from cltp.tactile.contact.single_cloud import is_touched
 from cltp.tactile.encoder_input import encoder_input
 from cltp.tactile.states import NO_CONTACT_STATE
 from policies.llm.spoken import SpokenContact, spoken_contact
@@ -20,7 +21,7 @@ from tacgrasp.lessons.dialogue.answers import Answer
 from tacgrasp.lessons.dialogue.meaning import AnswerKind
 from tacgrasp.lessons.dialogue.scene import AskedScene
 from tacgrasp.lessons.understanding import answered, understood_in_turn
-from tacgrasp.playback.describe import RAISED, cloud_flags, is_touched
+from tacgrasp.playback.describe import RAISED, cloud_flags, zero_flags
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -94,6 +95,8 @@ class Conversation:
             spoken = spoken_contact(talker, felt, cloud.sensor)
             reading = reading_of(felt.readings, cloud, talker.model.heads.contradiction)
             self._flags = (*(flag.value for flag in reading.flags), *cloud_flags(cloud))
+        else:
+            self._flags = tuple(zero_flags(cloud))
         self._scene = replace(told, state=spoken.state)
         self._words, self._ends = spoken.confidence, spoken.ends
         self._before = ""

@@ -8,10 +8,14 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from cltp.errors import TouchError
 from cltp.tactile.cloud import TactileCloud
-from cltp.tactile.contact.contact_test import touches_alone
 from cltp.tactile.contact.raised_pad import is_raised, raised_text
+from cltp.tactile.contact.single_cloud import (
+    is_lowered,
+    is_touched,
+    lowered_text,
+    unseen_mm,
+)
 from cltp.tactile.measure import contact_state
 from cltp.tactile.states import DIMENSIONS, NO_CONTACT_STATE, NUMBERS, ContactState
 from cltp.texts.captions import caption
@@ -23,6 +27,7 @@ if TYPE_CHECKING:
     from primitives.contract import Contract
 
 NO_CONTACT = "nothing touches the gel"
+"""Less deep than ``unseen_mm`` a press may be drift, which a single cloud can't tell from it."""
 
 NO_INTERVALS = "no_intervals"
 """Flag of numbers that were measured directly, without weights."""
@@ -33,20 +38,8 @@ UNCALIBRATED_FORCE = "uncalibrated_force"
 RAISED = "raised"
 """Flag of a pad that is raised all over (``cltp.encoder.reader.Flag``)."""
 
-
-def is_touched(cloud: TactileCloud) -> bool:
-    """Whether something touches the gel of a single cloud, by test.
-
-    Raises:
-        TouchError: The gel rises where a contact would press it in.
-    """
-    evidence = touches_alone(cloud)
-    if evidence.is_inverted:
-        raise TouchError(
-            "the gel rises where a contact would press it in: z has the wrong sign; expected mm, "
-            "positive into the gel, with the untouched gel at 0"
-        )
-    return evidence.in_contact
+LOWERED = "lowered"
+"""Flag of a cloud that has lost its zero (``cltp.tactile.contact.single_cloud``)."""
 
 
 def make_reader(weights: Path) -> TouchReader | None:
@@ -64,7 +57,12 @@ def make_reader(weights: Path) -> TouchReader | None:
 
 def cloud_flags(cloud: TactileCloud) -> list[str]:
     """Flags of a contact that its cloud gives without a reader."""
-    return [] if cloud.force_scale.is_calibrated else [UNCALIBRATED_FORCE]
+    return zero_flags(cloud) + ([] if cloud.force_scale.is_calibrated else [UNCALIBRATED_FORCE])
+
+
+def zero_flags(cloud: TactileCloud) -> list[str]:
+    """Flag of a cloud that has lost its zero, touched or not; none of one that has kept it."""
+    return [LOWERED] if is_lowered(cloud) else []
 
 
 def describe(cloud: TactileCloud) -> list[str]:
@@ -81,8 +79,10 @@ def describe(cloud: TactileCloud) -> list[str]:
     ]
     if is_raised(cloud):
         return [*lines, f"contact   unreadable: {raised_text(cloud)}"]
+    if is_lowered(cloud):
+        lines.append(f"zero      don't act on this: {lowered_text(cloud)}")
     if state.depth is None or state.position is None or state.area is None:
-        return [*lines, f"contact   none: {NO_CONTACT}"]
+        return [*lines, f"contact   none: {NO_CONTACT} deeper than {unseen_mm(cloud):.2f} mm"]
     return [
         *lines,
         f"position  {state.position} ({state.x_mm:+.2f}, {state.y_mm:+.2f} mm)",
@@ -127,8 +127,7 @@ def describe_in_numbers(cloud: TactileCloud, reader: TouchReader | None) -> dict
         numbers = {
             name: {"value": getattr(state, name), "lo": None, "hi": None} for name in NUMBERS
         }
-    if is_in_contact:
-        flags += cloud_flags(cloud)
+    flags += cloud_flags(cloud) if is_in_contact else zero_flags(cloud)
     return _in_numbers(
         cloud, is_in_contact, state, numbers=numbers, confidence=confidence, flags=flags
     )
@@ -165,7 +164,9 @@ def describe_by_model(cloud: TactileCloud, model: LlmPolicy, contract: Contract)
     """
     description = model.describe(cloud)
     decision = model.decide(Observation(cloud=cloud), contract)
-    if decision.action is not None:
+    if is_lowered(cloud):
+        advice = f"no action: {lowered_text(cloud)}"
+    elif decision.action is not None:
         advice = f"{decision.action} (confidence {decision.confidence:.2f})"
     elif decision.success:
         advice = f"nothing, the grasp is good (confidence {decision.confidence:.2f})"

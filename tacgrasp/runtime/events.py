@@ -1,12 +1,15 @@
-"""A run for machines: the contract, every step and the end, one JSON object a line.
+"""A run for machines: the contract, every step and the end, a JSON object each.
 
-The file grows while the run goes on, so that another program can follow it. Not here: the full
-record of an episode (``tacgrasp.episodes``).
+The file grows while the run goes on, so that another program can follow it. A file ``.json`` is one
+array, which is closed again behind each event: whatever ends the process, it is valid and holds
+what has been. Anything else has an object a line: a file ``.jsonl``, and a pipe, which can't be
+gone back in. Not here: the full record of an episode (``tacgrasp.episodes``).
 """
 
 from __future__ import annotations
 
 import json
+import os
 from pathlib import Path
 from types import TracebackType
 from typing import IO, Any
@@ -24,7 +27,8 @@ class EventFile:
 
     def __init__(self, path: Path | None) -> None:
         self._path = path
-        self._file: IO[str] | None = None
+        self._file: IO[bytes] | None = None
+        self._is_array = self._is_empty = False
 
     def __enter__(self) -> EventFile:
         """Open the file.
@@ -34,9 +38,11 @@ class EventFile:
         """
         if self._path is not None:
             try:
-                self._file = self._path.open("w", encoding="utf-8")
+                self._file = self._path.open("wb")
             except OSError as error:
                 raise UsageError(f"--json {self._path} can't be written: {error}") from None
+            is_json = self._path.resolve().suffix.lower() == ".json"
+            self._is_array = self._is_empty = is_json and self._file.seekable()
         return self
 
     def __exit__(
@@ -112,6 +118,16 @@ class EventFile:
     def _write(self, event: str, fields: dict[str, Any]) -> None:
         if self._file is None:
             return
-        line = json.dumps({"event": event, **to_json(fields, event)}, ensure_ascii=False)
-        self._file.write(line + "\n")
+        text = json.dumps({"event": event, **to_json(fields, event)}, ensure_ascii=False)
+        if self._is_array:
+            start = "[\n" if self._is_empty else ",\n"
+            if not self._is_empty:
+                self._file.seek(-len(_CLOSED), os.SEEK_CUR)
+            text, self._is_empty = start + text + _CLOSED, False
+        else:
+            text += "\n"
+        self._file.write(text.encode("utf-8"))  # one piece: the array is never seen open
         self._file.flush()
+
+
+_CLOSED = "\n]\n"

@@ -141,6 +141,8 @@ def _number(message: Mapping[str, Any], key: str) -> float | None:
         return None
     if type(value) not in (int, float) or not abs(value) < 1e9:  # NaN is not below either
         raise WireError(f"{key} must be a finite number, got {_kind(value)}")
+    if value < 0:
+        raise WireError(f"{key} must be 0 or more, got {value:g}")
     return float(value)
 
 
@@ -153,8 +155,8 @@ def _interval(values: Any) -> Interval | None:
     if not (is_three and all(type(v) in (int, float) and math.isfinite(v) for v in values)):
         raise WireError("observation/felt_force_n must be three finite numbers [N]")
     low, best, high = map(float, values)
-    if not low <= best <= high:
-        raise WireError(f"observation/felt_force_n must rise, got {values}")
+    if not 0 <= low <= best <= high:
+        raise WireError(f"observation/felt_force_n must rise, from 0 or more, got {values}")
     return Interval(low=low, value=best, high=high)
 
 

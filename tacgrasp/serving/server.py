@@ -26,7 +26,7 @@ from functools import lru_cache
 from typing import Any
 
 from cltp import TouchError
-from policies import Policy, PolicyError
+from policies import Decision, Policy, PolicyError
 from primitives import LimitError
 from primitives.contract import Contract
 from tacgrasp.base.errors import UsageError
@@ -37,6 +37,7 @@ from tacgrasp.serving.answers import ACTION_COLUMNS, answer_message
 from tacgrasp.serving.keys import is_loopback
 from tacgrasp.serving.questions import KEYS, read_question
 from tacgrasp.serving.remote import PROTOCOL, SERVER
+from tacgrasp.serving.unread import unread_reason
 from tacgrasp.serving.wire import MAX_MESSAGE_BYTES, WireError, pack, unpack
 
 try:
@@ -240,7 +241,9 @@ class PolicyServer:
         if question.is_first:
             policy.start()
         observation, contract = question.observation, question.contract
-        if observation.in_contact is False:
+        if unread := unread_reason(observation):
+            decision = Decision(text=f"{unread}.", action=None, success=False, reason=unread)
+        elif observation.in_contact is False:
             decision = NOTHING_TOUCHES
         else:
             decision = policy.decide(observation, contract)

@@ -1,7 +1,9 @@
 """The Policy contract on every policy that needs no simulator, and what is each one's own."""
 
 import importlib.util
+from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from cltp.tactile.sensors import sensor_named
@@ -51,6 +53,15 @@ class TestRules(PolicyContract):
     def test_a_refused_contract_is_not_decided_for(self, policy):
         with pytest.raises(LimitError, match="refused"):
             policy.decide(Observation(cloud=CLOUDS[0]), refused_contract())
+
+    def test_nothing_is_done_about_a_pad_that_is_raised_all_over(self):
+        for cloud in CLOUDS:
+            raised = replace(cloud, points_mm=cloud.points_mm + np.float32([0, 0, 0.5]))
+            decision = RulesPolicy(move_step_mm=3.0).decide(Observation(cloud=raised), CONTRACT)
+            assert (decision.action, decision.success) == (None, False)
+            assert "raised by 0.50 mm" in decision.reason
+            with pytest.raises(LimitError, match="refused"):
+                RulesPolicy(move_step_mm=3.0).decide(Observation(cloud=raised), refused_contract())
 
     def test_every_stage_is_timed(self, policy):
         decision = policy.decide(Observation(cloud=CLOUDS[0]), CONTRACT)

@@ -35,7 +35,7 @@ def test_the_same_manner_in_other_words_is_relative_to_the_task():
 def test_words_win_over_the_task_and_are_named_as_the_origin():
     said = read("Hold it at 1.2 N.")
     assert 1.2 in said.terms.force_n
-    assert said.origins["force_n"] == "your words: 1.2 n"
+    assert said.origins["force_n"] == "your words: 1.2 N"
     assert said.origins["slip_mm"] == "the task"
     assert said.origins["depth_mm"] == "default"  # the task's depth is that of the task's force
 
@@ -52,10 +52,10 @@ def test_configuration_wins_over_manner_and_says_so():
 @pytest.mark.parametrize(
     ("text", "band", "named"),
     [
-        ("Hold it with 1 N.", (4.0, 6.0), "1 n"),
-        ("Hold it with at most 2 N.", (1.5, 3.0), "at most 2 n"),
-        ("Hold it with at least 5 N.", (1.0, 2.0), "at least 5 n"),
-        ("Hold it with 2 to 3 N.", (0.5, 1.5), "2 to 3 n"),
+        ("Hold it with 1 N.", (4.0, 6.0), "1 N"),
+        ("Hold it with at most 2 N.", (1.5, 3.0), "at most 2 N"),
+        ("Hold it with at least 5 N.", (1.0, 2.0), "at least 5 N"),
+        ("Hold it with 2 to 3 N.", (0.5, 1.5), "2 to 3 N"),
     ],
 )
 def test_a_force_in_words_against_the_configuration_is_refused_with_both_named(text, band, named):
@@ -115,7 +115,7 @@ def test_a_band_that_no_contract_has_is_an_error_of_the_caller():
 def test_words_alone_may_not_name_more_than_three_times_the_tasks_limit():
     assert read("Hold it with 7 N.").refused == ""
     refused = read("Hold it with 8 N.").refused
-    assert "8 n is more than 3 times the task's limit" in refused
+    assert "8 N is more than 3 times the task's limit" in refused
     assert "--goal.force-n" in refused
     assert read(TASK.instruction, force_n=Band(low=7.5, high=8.5)).refused == ""
     assert read_contract("Hold it with 8 N.", peg_terms(), {}).refused == ""
@@ -313,3 +313,15 @@ def test_a_band_in_no_order_is_refused(low, high):
 def test_force_terms_of_nothing_are_refused():
     with pytest.raises(LimitError, match="above 0 N"):
         ForceTerms(force_n=Band(low=0.0, high=1.0), limit_n=2.0)
+
+
+@pytest.mark.parametrize(
+    ("instruction", "words"),
+    [
+        ("Grip at most 1 n.", "at most 1 N"),
+        ("Grip with 900 mn.", "900 mN"),
+        ("Grip with 0.9 newtons.", "0.9 newtons"),
+    ],
+)
+def test_units_are_said_as_they_are_written(instruction, words):
+    assert words in read(instruction).origins["force_n"]

@@ -95,7 +95,7 @@ def test_the_shaping_changes_the_sum_of_an_episode_by_its_first_potential_alone(
 
 def test_truth_is_in_info_alone(env):
     observation, info = env.reset(options={"seed": 6})
-    assert info["truth"]["gripper_force_gain"] > 0
+    assert info["truth"]["gripper_factor"] > 0
     assert set(observation) == {"heights", "touch"}
     env.unwrapped._episode.rig.grasp.peak_kpa = 12345.0  # a truth that nothing felt depends on
     assert not any((array == 12345.0).any() for array in observation.values())
@@ -130,6 +130,41 @@ def test_a_step_before_reset_and_an_unknown_option_are_refused():
         env.step(0)
     with pytest.raises(UsageError, match="option seed alone"):
         env.reset(options={"berry": 1})
+
+
+@pytest.mark.parametrize("action", [-1, 8, 1.5, True, "1", None, np.array([1])])
+def test_what_is_no_action_is_refused_with_those_that_are_and_nothing_moves(action):
+    env = tacgrasp.gym.StrawberryEnv()
+    env.reset(options={"seed": 6})
+    with pytest.raises(UsageError, match=r"one of 0 move_up, .*, 7 declare the grasp good; got"):
+        env.step(action)
+    assert env.step(np.int64(ACTIONS.index(Primitive.INCREASE_FORCE)))[2:4] == (False, False)
+    env.close()
+
+
+@pytest.mark.parametrize("seed", [1.5, -1, True, "1", None])
+def test_a_seed_that_is_none_is_refused(seed):
+    with pytest.raises(UsageError, match="option seed is a whole number"):
+        tacgrasp.gym.StrawberryEnv().reset(options={"seed": seed})
+
+
+def test_the_truth_has_the_same_names_at_the_end_as_before(env):
+    _, first = env.reset(options={"seed": 6})
+    _, _, last = played(env, options={"seed": 6})
+    assert first["truth"].keys() == last["truth"].keys()
+    assert {"gripper_factor", "offset_x_mm", "offset_y_mm"} <= first["truth"].keys()
+
+
+def test_the_last_reward_pays_the_potential_back_whatever_the_end(env):
+    env.reset(options={"seed": 6})
+    rewards = []
+    for _ in range(3):
+        before = env.unwrapped._potential
+        _, reward, is_over, _, info = env.step(DECLARE)
+        rewards.append(reward)
+    assert is_over
+    assert info["end"] == "no_action"
+    assert rewards[-1] == pytest.approx(-tacgrasp.gym.STEP_COST - before)
 
 
 def test_heights_are_means_of_cells_whatever_the_number_of_points():

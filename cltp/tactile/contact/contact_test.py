@@ -311,18 +311,32 @@ def touches_alone(cloud: TactileCloud) -> ContactEvidence:
     """Test a single cloud, without frames of the untouched gel.
 
     The least response of a contact is what the sensor's drift and fine noise reach
-    (``cltp.tactile.sensor_noise``): light contacts can't be told from drift in one frame.
+    (``cltp.tactile.sensor_noise``): light contacts can't be told from drift in one frame, unless
+    the frame itself shows next to none.
     """
     spread, sensor = spread_of(cloud.sensor), cloud.sensor
     cells = cell_means(cloud)
+    drift_mm = drift_alone_mm(cloud)
     pitch_mm = math.sqrt(sensor.area_mm2 / len(cloud.points_mm))
     least_mm = []
     for scale_mm in SCALES_MM:
-        drift = spread.drift_mm * _drift_gain(scale_mm, spread.drift_length_mm[0])
+        drift = drift_mm * _drift_gain(scale_mm, spread.drift_length_mm[0])
         # White noise of each point, through the difference of Gaussians.
         fine = spread.fine_mm * pitch_mm / (2 * math.sqrt(math.pi) * scale_mm) * math.sqrt(0.45)
         least_mm.append(SINGLE_THRESHOLD * math.hypot(drift, fine))
     return _evidence(_responses(cells, sensor), np.array(least_mm))
+
+
+def drift_alone_mm(cloud: TactileCloud) -> float:
+    """Drift that a single cloud may have, standard deviation [mm].
+
+    That of its sensor, or less where half of the pad lies within far less, as in a simulated cloud
+    without noise.
+    """
+    cells = filled(cell_means(cloud))
+    seen_mm = 1.4826 * float(np.median(np.abs(cells - np.median(cells))))
+    drift_mm = spread_of(cloud.sensor).drift_mm
+    return min(drift_mm, max(SEEN_FACTOR * seen_mm, LEAST_DRIFT * drift_mm))
 
 
 def _evidence(responses: FloatArray, least_mm: FloatArray) -> ContactEvidence:
@@ -346,6 +360,11 @@ def _compared(pressed: float, raised: float) -> ContactEvidence:
 MIN_PRESSED = 0.5
 """Least response of what is pressed in over that of what rises, of a contact. A bump of the wrong
 sign has 0.1 to 0.3; noise-free contacts of all shapes have 0.62 (a plane) and more."""
+
+SEEN_FACTOR, LEAST_DRIFT = 8.0, 1 / 8
+"""Drift that a single cloud may have over the spread of its heights, and the least one over that of
+its sensor: 0.005 mm of a GelSight Mini. Our choice: a pad holds few independent places of drift, so
+that its spread is a poor estimate; that of a calibrated unit changes nothing."""
 
 SINGLE_THRESHOLD = 4.0
 """As ``THRESHOLD``, of a single frame: drift has few independent places on a pad."""

@@ -194,7 +194,7 @@ BAD_FILES: dict[str, tuple[bytes, str]] = {
     ),
     "padded.npz": (
         npz({"a.npy": npy_header("<f8", (256, 3)) + bytes(300_000_000)}),
-        "spans only",  # what follows the array is never unpacked
+        "lie at one place",  # what follows the array is never unpacked
     ),
     "encrypted.npz": (encrypted(npz({"a.npy": npy_header("<f8", (3, 3))})), "encrypted"),
     "zlib.npz": (damaged(npz({"a.npy": npy_header("<f8", (3, 3)) * 9})), "not a whole .npz"),

@@ -76,3 +76,34 @@ def test_noise_is_measured_beside_a_contact():
 
 def test_a_flat_gel_displaces_nothing():
     assert volume_mm3(np.zeros((32, 32)), SENSOR) == 0.0
+
+
+def cap(radius_mm, depth_mm, x_mm=0.0, y_mm=0.0):
+    """A noise-free press of a ball, with the untouched gel at exactly 0."""
+    square = (X - x_mm) ** 2 + (Y - y_mm) ** 2
+    return np.clip(depth_mm - square / (2 * radius_mm), 0, None)
+
+
+@pytest.mark.parametrize("place", [(0, 0), (5, 3), (9, 0)])
+@pytest.mark.parametrize("radius_mm", [15.0, 30.0, 60.0])
+def test_a_deeper_press_of_a_large_ball_never_measures_less(radius_mm, place):
+    depths = np.arange(0.2, 2.0, 0.1)
+    clouds = [cap(radius_mm, depth, *place) for depth in depths]
+    clouds = [cells for cells in clouds if np.quantile(cells, 0.02) < 0.08]  # else: raised all over
+    assert len(clouds) >= 9
+    contacts = [local_contact(cells, SENSOR) for cells in clouds]
+    volumes = [contact.volume_mm3 for contact in contacts]
+    assert (np.diff(volumes) > 0).all()
+    measured = np.array([contact.heights_mm.max() for contact in contacts])
+    assert measured == pytest.approx(depths[: len(measured)], rel=0.1, abs=0.01)
+
+
+def test_a_flat_face_that_covers_the_most_of_the_pad_is_measured_from_the_clouds_zero():
+    face = np.where(np.hypot(X, Y) < 9, 0.5, 0.0)
+    volume = volume_mm3(face, SENSOR)
+    assert volume == pytest.approx(0.8 * 0.5 * (face > 0).mean() * SENSOR.area_mm2, rel=0.01)
+
+
+def test_broad_drift_above_zero_is_no_contact_that_covers_the_pad():
+    drift = 0.1 + 0.012 * X  # most of the pad lies above 0.08 mm, and one side at 0
+    assert volume_mm3(bump() + drift, SENSOR) == pytest.approx(VOLUME, rel=0.06)

@@ -355,6 +355,33 @@ def test_no_grip_becomes_firmer_where_the_whole_pad_is_raised(
     assert policy.follow(observation, Band(low=0.4, high=0.5), 1.0).action is action
 
 
+@pytest.mark.parametrize(
+    ("flags", "felt_n", "barred", "action"),
+    [
+        ((Flag.RANGE,), 0.9, (), Primitive.DECREASE_FORCE),
+        ((Flag.RANGE,), 0.9, ("<decrease_force>",), None),
+        ((Flag.RANGE,), 0.45, (), None),
+        ((Flag.RANGE, Flag.NOISE), 0.9, (), None),
+        ((Flag.NOISE,), 0.9, (), None),
+    ],
+)
+def test_a_contact_too_deep_to_be_read_is_loosened_where_its_felt_force_is_above_the_target(
+    flags: tuple[Flag, ...],
+    felt_n: float,
+    barred: tuple[str, ...],
+    action: Primitive | None,
+    untrained: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    policy = LlmPolicy(untrained)
+    unread(policy, monkeypatch, *flags, state=HELD.state)
+    felt = Interval(value=felt_n, low=felt_n / 1.3, high=felt_n * 1.3)
+    observation = Observation(cloud=touch(), in_contact=True, felt_force_n=felt)
+    decision = policy.follow(observation, Band(low=0.4, high=0.5), 1.0, barred)
+    assert decision.action is action
+    assert not decision.success
+
+
 def pressed_along(first: int, last: int) -> TactileCloud:
     """A ridge along x, in columns of 0.2 mm of a GelSight Mini from its left edge."""
     y, x = np.mgrid[:76, :102]

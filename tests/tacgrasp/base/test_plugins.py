@@ -5,6 +5,7 @@ import sys
 
 import pytest
 
+from cltp import TouchError
 from tacgrasp import api
 from tacgrasp.__main__ import main
 from tacgrasp.base.errors import UsageError
@@ -221,3 +222,48 @@ def test_help_and_import_look_for_no_plugin(tmp_path, monkeypatch):
         [sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True
     )
     assert done.stdout.splitlines()[-1].endswith("False")
+
+
+RAISES = """
+class Theirs:
+    name = "theirs"
+    def start(self): {start}
+    def decide(self, observation, contract): {decide}
+
+def thing(config): return Theirs()
+"""
+
+
+@pytest.mark.parametrize(
+    ("start", "decide", "expected"),
+    [
+        ("pass", "1 / 0", "its decide raised ZeroDivisionError: division by zero (their_module.py"),
+        ("pass", "return None", "the policy replied None; expected a Decision"),
+        ("{}['x']", "pass", "its start raised KeyError: 'x'"),
+    ],
+)
+def test_a_policy_that_breaks_ends_the_run_as_a_fault_of_the_plugin(
+    start, decide, expected, tmp_path, monkeypatch, capsys
+):
+    broken(tmp_path, monkeypatch, "policies", RAISES.format(start=start, decide=decide))
+    record = tmp_path / "episodes"
+    argv = ["run", "--policy", "theirs", "--record", str(record)]
+    assert main(argv) == 3
+    printed = capsys.readouterr()
+    assert "Traceback" not in printed.out + printed.err
+    said = " ".join(printed.out.split())
+    assert "end: fault" in said
+    assert "the plugin theirs of their-package 1.2 (tacgrasp.policies)" in said
+    assert expected in said
+    assert main(["why", str(next(record.glob("*.mcap")))]) == 1
+    why = " ".join(capsys.readouterr().out.split())
+    assert "the plugin theirs of their-package 1.2 (tacgrasp.policies)" in why
+    assert expected in why
+
+
+def test_a_policy_of_a_plugin_raises_what_a_policy_may_raise(tmp_path, monkeypatch):
+    code = RAISES.format(start="pass", decide="raise TouchError('no cloud')")
+    broken(tmp_path, monkeypatch, "policies", "from cltp import TouchError\n" + code)
+    run = api.configure("strawberry", policy="theirs")
+    with pytest.raises(TouchError, match=r"^no cloud$"):
+        api.make_policy(run).decide(None, run.contract)

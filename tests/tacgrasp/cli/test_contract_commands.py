@@ -182,7 +182,7 @@ def test_a_force_in_words_against_a_flag_is_refused_with_both_named(
     argv = ["run", "--instruction", "Hold it at 1 N.", "--goal.force-n", "4", "6"]
     message = complaint([*argv, "--record", str(tmp_path / "episodes")], capsys)
     assert "4-6 N" in message
-    assert "'1 n'" in message
+    assert "'1 N'" in message
     assert not (tmp_path / "episodes").exists()
 
 

@@ -164,6 +164,8 @@ def test_a_set_with_contacts_missing_or_a_shard_torn_is_not_taken_for_whole(tmp_
 @pytest.mark.parametrize("command", ["inspect", "stats", "verify", "gallery", "sheet"])
 def test_a_folder_that_is_no_data_set_is_wrong_use(command, tmp_path, capsys):
     assert main(["data", command, str(tmp_path / "none")]) == 2
+    assert "there is no such folder" in capsys.readouterr().err
+    assert main(["data", command, str(tmp_path)]) == 2
     assert "dataset.json is missing" in capsys.readouterr().err
 
 

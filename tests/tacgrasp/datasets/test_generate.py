@@ -144,6 +144,27 @@ def test_a_started_data_set_without_shards_is_not_complete(tmp_path):
         made.is_complete(tmp_path)
 
 
+def test_a_folder_with_other_files_is_refused_and_left_as_it_is(tmp_path):
+    (tmp_path / "README.md").write_text("mine")
+    (tmp_path / "dataset.json.123.part").write_text("{")  # of another machine, just begun
+    with pytest.raises(UsageError, match=r"holds other files \(README.md\); name a new folder"):
+        generate(tmp_path)
+    assert (tmp_path / "README.md").read_text() == "mine"
+    assert len(files(tmp_path)) == 2
+    (tmp_path / "README.md").unlink()
+    made._open(tmp_path, {"contacts": "9", "seed": "0", "set": "full"})
+
+
+def test_who_stops_it_is_told_that_it_stops(tmp_path, monkeypatch, caplog):
+    def interrupted(futures):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(made, "as_completed", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        generate(tmp_path / "data", contacts=30, workers=2)
+    assert "stopping, once the workers have; the same command goes on" in caplog.text
+
+
 @pytest.mark.skipif(os.geteuid() == 0, reason="root may write anywhere")
 def test_a_folder_that_can_t_be_written_is_an_error(tmp_path):
     tmp_path.chmod(0o500)

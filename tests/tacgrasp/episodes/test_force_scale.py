@@ -94,7 +94,7 @@ def test_the_plot_s_axis_of_forces_marks_an_uncalibrated_one(tmp_path):
 def test_every_event_of_a_step_has_the_scale(tmp_path):
     with EventFile(tmp_path / "events.json") as events:
         events.step(scaled_step(UNCALIBRATED))
-    event = json.loads((tmp_path / "events.json").read_text())
+    (event,) = json.loads((tmp_path / "events.json").read_text())
     assert event["force_scale"] == to_json(UNCALIBRATED)
 
 

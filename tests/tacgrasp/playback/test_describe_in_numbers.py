@@ -11,7 +11,7 @@ import torch
 from cltp.encoder.encoder import PRESETS, TactileEncoder
 from cltp.encoder.heads import StateHeads, transformed
 from cltp.encoder.heads_output import HeadsOutput
-from cltp.encoder.reader import Flag, TouchReader, fine_noise_mm, reading_of
+from cltp.encoder.reader import Flag, TouchReader, TouchReading, fine_noise_mm, reading_of
 from cltp.encoder.readings import readings_of
 from cltp.errors import TouchError
 from cltp.tactile.cells import resampled
@@ -22,6 +22,7 @@ from cltp.tactile.sensors import SENSORS
 from cltp.tactile.states import CLASSES, NUMBERS
 from tacgrasp.__main__ import main
 from tacgrasp.playback.describe import (
+    LOWERED,
     NO_INTERVALS,
     RAISED,
     UNCALIBRATED_FORCE,
@@ -126,6 +127,29 @@ def test_a_force_that_no_command_comes_to_is_flagged(
     assert (Flag.FORCE in reading.flags) is is_flagged
 
 
+def read_as(depth_mm: float, heights_mm: np.ndarray) -> TouchReading:
+    """The reading of some heights by heads that read a depth, with an interval of 0.03 mm."""
+    heads = HeadsOutput(
+        logits=tuple(torch.zeros(1, len(names)) for names in CLASSES.values()),
+        numbers=transformed(torch.tensor([[depth_mm, 0.0, 0.0, 0.1, 5.0]])),
+        touching=torch.full((1,), 5.0),
+        cut=torch.full((1, 4), -5.0),
+        margins=torch.full((1, 5, 2), 0.1),
+    )
+    return reading_of(readings_of(heads), cloud_of_pixels(heights_mm, MINI))
+
+
+@pytest.mark.parametrize(
+    ("read_mm", "true_mm", "is_flagged"),
+    [(1.3, 2.0, True), (1.3, 1.6, True), (1.98, 2.0, False), (1.0, 1.25, False)],
+)
+def test_a_depth_below_a_measured_one_that_was_not_learned_is_flagged(
+    read_mm: float, true_mm: float, is_flagged: bool
+) -> None:
+    reading = read_as(read_mm, bump(0.0, 0.0, true_mm))
+    assert (Flag.RANGE in reading.flags) is is_flagged
+
+
 def test_numbers_that_are_not_finite_are_flagged() -> None:
     encoder, heads = TactileEncoder(PRESETS["tiny_grid"]), StateHeads.of(PRESETS["tiny_grid"])
     with torch.no_grad():
@@ -167,6 +191,19 @@ def test_a_pad_that_is_pressed_all_over_is_flagged_and_not_called_untouched(
     assert "unreadable: the whole pad is raised" in describe(pressed)[-1]
     assert Flag.RAISED in reader.read(pressed).flags
     assert Flag.RAISED not in reader.read(cloud()).flags
+
+
+def test_a_pad_that_is_lowered_as_a_whole_is_measured_and_flagged(reader: TouchReader) -> None:
+    lowered = cloud_of_pixels(bump(1.0, -2.0, 0.5) - 0.3, MINI)
+    told = describe_in_numbers(lowered, reader)
+    assert told["contact"] is True
+    assert LOWERED in told["flags"]
+    assert LOWERED not in describe_in_numbers(cloud(), reader)["flags"]
+    untouched = cloud_of_pixels(np.full((60, 80), -0.3), MINI)
+    assert describe_in_numbers(untouched, reader)["flags"] == [LOWERED]
+    said = "\n".join(describe(lowered))
+    assert "zero      don't act on this: a tenth of the pad lies 0.30 mm below" in said
+    assert "force     about" in said
 
 
 @pytest.mark.parametrize("command", [["describe"], ["describe", "--json"], ["ask"]])

@@ -25,6 +25,7 @@ from tests.fakes.policy_servers import served
 from tests.paths import ROOT
 
 PROMPT = "Pick the strawberry gently, without bruising it."
+POINTS = "observation/tactile_points"
 BELOW = np.array(CLOUDS[1].points_mm, dtype="<f4")
 
 
@@ -97,6 +98,33 @@ def test_a_success_that_what_is_felt_refutes_is_none(url):
     assert asked(url, **points, **felt)["success"] is False
 
 
+UP_MM = np.float32([0, 0, 0.5])
+FLAT = BELOW * np.float32([1, 1, 0])
+
+
+@pytest.mark.parametrize(
+    ("points", "known", "expected"),
+    [
+        (FLAT + UP_MM, {}, "raised by 0.50 mm"),
+        (BELOW + UP_MM, {}, "raised by 0.50 mm"),
+        (BELOW + UP_MM, {"observation/in_contact": True}, "raised by 0.50 mm"),
+        (FLAT + UP_MM, {"observation/in_contact": False}, "raised by 0.50 mm"),
+        (BELOW - UP_MM, {}, "0.50 mm below zero"),
+    ],
+)
+def test_nothing_is_done_about_a_pad_without_its_zero(url, points, known, expected):
+    answer = asked(url, **{POINTS: points}, **known)
+    assert expected in answer["reason"]
+    assert expected in answer["text"]
+    assert (answer["primitive"], answer["success"]) == (None, False)
+    assert answer["actions"].tolist() == [[0, 0, 0, 0]]
+
+
+def test_a_client_that_has_an_untouched_gel_to_compare_with_is_answered_below_zero(url):
+    lowered = {POINTS: BELOW - UP_MM, "observation/in_contact": True}
+    assert asked(url, **lowered)["primitive"] == "move_down"
+
+
 def test_a_second_answer_says_how_long_the_first_took_in_all(url):
     connection, _ = opened(url)
     with connection:
@@ -107,9 +135,6 @@ def test_a_second_answer_says_how_long_the_first_took_in_all(url):
         second = unpack(connection.recv(timeout=10))["server_timing"]
     assert "prev_total_ms" not in first
     assert second["prev_total_ms"] >= first["infer_ms"]
-
-
-POINTS = "observation/tactile_points"
 
 
 @pytest.mark.parametrize(
@@ -132,7 +157,14 @@ POINTS = "observation/tactile_points"
         ({"sensor": "finger"}, "unknown sensor 'finger'"),
         ({"observation/in_contact": 1}, "must be true or false"),
         ({"observation/width_m": float("nan")}, "must be a finite number"),
+        ({"observation/width_m": -3.0}, "observation/width_m must be 0 or more, got -3"),
         ({"observation/felt_force_n": [2.0, 1.0, 3.0]}, "must rise"),
+        ({"observation/felt_force_n": [-2.0, 1.0, 3.0]}, "must rise, from 0"),
+        ({POINTS: BELOW * np.float32([1, 1, -1])}, "z has the wrong sign"),
+        (
+            {POINTS: BELOW * np.float32([1, 1, -1]), "observation/in_contact": True},
+            "z has the wrong sign",
+        ),
         ({"observation/force_scale": {"factor": 99.0, "spread": 0, "source": ""}}, "force scale"),
         ({"contract": {"text": "x"}}, "contract: .*is missing"),
         ({"start": "yes"}, "start must be"),

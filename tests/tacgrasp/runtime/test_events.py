@@ -1,0 +1,65 @@
+"""The file of a run for machines: valid at every moment, whichever kind it is."""
+
+import json
+import os
+import threading
+
+import pytest
+
+from cltp.tactile.force_scale import UNCALIBRATED
+from tacgrasp.base.errors import UsageError
+from tacgrasp.base.result_file import check_replaceable
+from tacgrasp.cli.run import main
+from tacgrasp.config.layers import load
+from tacgrasp.config.terms import contract_of
+from tacgrasp.runtime.events import EventFile
+from tests.tacgrasp.episodes.test_force_scale import scaled_step
+
+CONTRACT = contract_of(load("strawberry")[0])
+
+
+def test_a_json_file_is_one_array_after_every_event(tmp_path):
+    path = tmp_path / "events.json"
+    with EventFile(path) as events:
+        for number in range(1, 4):
+            if number == 1:
+                events.contract(CONTRACT)
+            else:
+                events.step(scaled_step(UNCALIBRATED))
+            names = [event["event"] for event in json.loads(path.read_text("utf-8"))]
+            assert names == ["contract", "step", "step"][:number]
+    check_replaceable(path)  # a later run may replace it
+    path.write_text('[{"event": "mine"}]')
+    with pytest.raises(UsageError, match="no earlier result"):
+        check_replaceable(path)
+
+
+def test_a_jsonl_file_has_an_object_a_line(tmp_path):
+    path = tmp_path / "events.jsonl"
+    with EventFile(path) as events:
+        events.contract(CONTRACT)
+        events.step(scaled_step(UNCALIBRATED))
+    lines = [json.loads(line) for line in path.read_text("utf-8").splitlines()]
+    assert [line["event"] for line in lines] == ["contract", "step"]
+
+
+def test_a_pipe_gets_an_object_a_line_whatever_its_name(tmp_path):
+    path, received = tmp_path / "pipe.json", []
+    os.mkfifo(path)
+    reader = threading.Thread(target=lambda: received.extend(path.read_text().splitlines()))
+    reader.start()
+    with EventFile(path) as events:
+        events.contract(CONTRACT)
+        events.contract(CONTRACT)
+    reader.join(10)
+    assert [json.loads(line)["event"] for line in received] == ["contract", "contract"]
+
+
+def test_the_command_writes_an_array_from_contract_to_end(tmp_path):
+    path = tmp_path / "run.json"
+    argv = ["--policy", "rules", "--record", str(tmp_path / "episodes"), "--json", str(path)]
+    assert main(argv) == 0
+    events = [event["event"] for event in json.loads(path.read_text("utf-8"))]
+    assert (events[0], events[-1]) == ("contract", "end")
+    assert set(events[1:-1]) == {"step"}
+    assert main(argv) == 0  # replaced by the next run
