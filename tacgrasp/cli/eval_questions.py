@@ -40,7 +40,7 @@ class QuestionFlags:
 
     file: Path | None = None
     data: Path | None = None
-    contacts: int = 24
+    contacts: int = 60
     per_question: int = 4
     weights: Path | None = None
     model: bool = True
