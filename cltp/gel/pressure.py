@@ -16,9 +16,9 @@ from __future__ import annotations
 from functools import lru_cache
 
 import numpy as np
+import torch
 from numpy.typing import NDArray
 from scipy import ndimage
-from scipy.linalg import LinAlgError, cholesky, solve_triangular
 
 from cltp.gel.compliance import GelMaterial, layer_kernel
 from cltp.tactile.encoder_input import GRID_UNIT_MM, OUTSIDE
@@ -58,6 +58,8 @@ LEAST_SURROUNDINGS = 20
 
 LEAST_DEPTH_MM = 1e-3
 LEAST_FORCE_N = 1e-3
+
+_NEIGHBOURS = ndimage.generate_binary_structure(2, 1)
 
 _OF_CONTACT = 7
 _OF_LEVEL = 4
@@ -113,7 +115,7 @@ def _surroundings(
     heights: NDArray[np.float64], contact: NDArray[np.bool_]
 ) -> tuple[float, float, float]:
     """Median height outside of a contact and its rim, its spread, and the fraction of the pad."""
-    outside = heights[~ndimage.binary_dilation(contact, iterations=RIM)]
+    outside = heights[~ndimage.binary_dilation(contact, _NEIGHBOURS, iterations=RIM)]
     if len(outside) < LEAST_SURROUNDINGS:
         return float(np.quantile(heights, 0.1)), 0.0, len(outside) / heights.size
     zero = float(np.median(outside))
@@ -130,7 +132,7 @@ def _outlines(smooth: NDArray[np.float64], depth: float) -> tuple[NDArray[np.int
     peak = np.unravel_index(int(smooth.argmax()), smooth.shape)
     rank = np.full(smooth.shape, len(LEVELS))
     for number, level in enumerate(sorted(LEVELS)):
-        regions, _ = ndimage.label(smooth > level * depth)
+        regions, _ = ndimage.label(smooth > level * depth, _NEIGHBOURS)
         rank[(regions == regions[peak]) & (regions > 0)] = len(LEVELS) - 1 - number
     rank[peak] = 0
     order = np.lexsort((-smooth.ravel(), rank.ravel()))
@@ -148,23 +150,27 @@ def _forces(
     parts of both, so that all outlines come of one factor.
     """
     rows, columns = heights.shape
-    kernel = _kernel(rows, columns, round(pitch_mm, 2))
-    row, column = np.divmod(chosen, columns)
-    compliance = kernel[np.abs(row[:, None] - row), np.abs(column[:, None] - column)]
-    compliance[np.diag_indices(len(chosen))] *= 1 + RIDGE
-    loads = np.stack([np.ones(len(chosen)), heights.ravel()[chosen]], axis=1)
-    try:
-        lower = cholesky(compliance, lower=True, overwrite_a=True, check_finite=False)
-    except LinAlgError as error:  # the kernel is positive definite
-        raise AssertionError("a compliance must be positive definite") from error
-    ones, solved = solve_triangular(lower, loads, lower=True, check_finite=False).T
+    every = _compliance(rows, columns, round(pitch_mm, 2))
+    loads = np.stack([np.ones(len(chosen)), heights.ravel()[chosen]], axis=1).astype(np.float32)
+    # torch keeps to the threads that it was given; numpy's linear algebra takes all
+    lower = torch.linalg.cholesky_ex(torch.from_numpy(every[chosen][:, chosen])).L
+    halves = torch.linalg.solve_triangular(lower, torch.from_numpy(loads), upper=False)
+    ones, solved = halves.numpy().T.astype(np.float64)
     sums = np.cumsum([ones * solved, ones * ones], axis=1) * pitch_mm**2
     forces, stiffness = sums[:, np.array(counts) - 1].tolist()
     return forces, stiffness
 
 
-@lru_cache(maxsize=256)
-def _kernel(rows: int, columns: int, pitch_mm: float) -> NDArray[np.float64]:
+@lru_cache(maxsize=8)
+def _compliance(rows: int, columns: int, pitch_mm: float) -> NDArray[np.float32]:
+    """Compliance of each of a pad's elements under pressure on each, with the ridge [mm/MPa].
+
+    32 bits suffice: its largest eigenvalue is six times its least.
+    """
     kernel: NDArray[np.float64] = layer_kernel(rows, columns, pitch_mm, NOMINAL_GEL).numpy()
-    kernel.setflags(write=False)
-    return kernel
+    row, column = np.divmod(np.arange(rows * columns), columns)
+    every = kernel[np.abs(row[:, None] - row), np.abs(column[:, None] - column)]
+    every[np.diag_indices(len(every))] *= 1 + RIDGE
+    every = every.astype(np.float32)
+    every.setflags(write=False)
+    return every

@@ -102,9 +102,9 @@ DEMOS: dict[str, Demo] = {
         blind_force_n=0.22,
     ),
     "strawberry": Demo(
-        summary="a small, ripe berry: what it needs is felt, and 0.3 N hold it",
+        summary="a small, ripe berry: what it needs is felt, and 0.35 N hold it",
         offset_mm=(0.0, -5.2),
-        actions=(Primitive.MOVE_DOWN, *(_RISE,) * 3),
+        actions=(Primitive.MOVE_DOWN, *(_RISE,) * 2),
         end=EndReason.SUCCESS,
         seed=3,
         task="strawberry",

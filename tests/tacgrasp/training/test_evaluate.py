@@ -188,7 +188,7 @@ def test_eval_prints_every_table_and_writes_json_and_card(
     ("argv", "expected"),
     [
         (["--weights", "nowhere"], "weights are missing: nowhere/encoder/config.json"),
-        (["--data", "nowhere"], "nowhere holds no contacts"),
+        (["--data", "nowhere"], "--data nowhere does not exist"),
         (["--pairs", "0"], "must be at least 1"),
         (["--json", "no/where.json"], "can't be written"),
         (["--blind", "nowhere"], "weights are missing: nowhere"),

@@ -244,7 +244,7 @@ def test_eval_ablate_prints_and_writes_every_condition(
     [
         (["--contacts", "1"], "--contacts must be at least 2"),
         (["--episodes", "-1"], "--episodes and --seed at least 0"),
-        (["--data", "nowhere"], "nowhere holds no contacts"),
+        (["--data", "nowhere"], "--data nowhere does not exist"),
         (["--json", "no/where.json"], "can't be written"),
     ],
 )
