@@ -5,7 +5,7 @@ where it knows outline and zero of the contact, and far off where it does not. T
 weighs both. It is fitted after the training of encoder and heads, which it leaves as they are.
 
 Not here: the pressure (``cltp.gel.pressure``), the heads (``cltp.encoder.heads``), drawing the
-contacts that it is fitted by (``cltp.train.force``).
+contacts that it is fitted by (``cltp.train.calibration``).
 """
 
 from __future__ import annotations

@@ -200,9 +200,10 @@ class Talker:
             doubt_below: With a grammar, probabilities below which a text is said with its rival, by
                 the name of its part; ``cltp.llm.constrained.decode.DOUBT_BELOW`` for the others.
             max_tokens: Bound on the tokens of a reply without a grammar.
-            penalties: Penalties of actions out of ``cltp.texts.tokenizer.ACTIONS`` in nats, which
-                are taken from their logits: a penalised action must be exp(penalty) times as
-                probable as the one that replaces it. An infinite penalty excludes an action.
+            penalties: Penalties of actions out of ``cltp.texts.tokenizer.ACTIONS`` in nats, with a
+                grammar of any of its options, which are taken from their logits: a penalised one
+                must be exp(penalty) times as probable as the one that replaces it. An infinite
+                penalty excludes it.
 
         Raises:
             TouchError: Grammar and penalties leave no action.

@@ -18,6 +18,7 @@ from cltp.checkpoints.manifest import MANIFEST, manifest_digest
 from cltp.checkpoints.tac3d_llm import load_clip, load_encoder, save_encoder
 from cltp.data.sampler import Augmentation, Batch, Sampler
 from cltp.encoder.encoder import EncoderConfig, TactileEncoder
+from cltp.encoder.force_head import ForceHead
 from cltp.encoder.heads import StateHeads, Targets, targets
 from cltp.encoder.losses import CltpLoss
 from cltp.errors import TouchError
@@ -71,8 +72,7 @@ def train_cltp(
     config = dataclasses.replace(config, feature_dim=towers.feature_dim)
     torch.manual_seed(seed)
     learner = _Learner(config).to(workers.device)
-    if start is not None:
-        _take(start, learner)
+    force = None if start is None else _take(start, learner)
     noise = augmentation and augmentation.identity
     identity = {
         "data": data.checksum(),
@@ -106,15 +106,14 @@ def train_cltp(
         stage.plot()
         learner.cpu().eval()
         calibrate_heads(run, learner.encoder, learner.heads, augmentation)
-        trained_on = None if start is None else load_encoder(start)[1].force
-        fit_force(run, learner.encoder, learner.heads, augmentation, trained_on)
+        fit_force(run, learner.encoder, learner.heads, augmentation, force)
         save_encoder(folder, learner.encoder, learner.heads)
     workers.wait()
     return folder
 
 
-def _take(start: Path, learner: _Learner) -> None:
-    """Begin with the weights of an encoder and its heads."""
+def _take(start: Path, learner: _Learner) -> ForceHead | None:
+    """Begin with an encoder and its heads; their force head, which is not trained, is returned."""
     encoder, heads = load_encoder(start)
     expected = learner.encoder.config
     if encoder.config != expected or not heads.has_intervals:
@@ -123,8 +122,9 @@ def _take(start: Path, learner: _Learner) -> None:
             "sizes; name its own --preset, or train without --start"
         )
     learner.encoder.load_state_dict(encoder.state_dict())
-    heads.force = None  # fitted or taken over after the training
+    force, heads.force = heads.force, None
     learner.heads.load_state_dict(heads.state_dict())
+    return force
 
 
 class _Sample(NamedTuple):

@@ -5,8 +5,6 @@ Not here: the training (``cltp.train.alignment``).
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 import numpy as np
 import torch
 from numpy.typing import NDArray
@@ -14,7 +12,7 @@ from torch import Tensor
 
 from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset
-from cltp.data.sampler import Augmentation, Batch, Sampler
+from cltp.data.sampler import Augmentation, Sampler
 from cltp.encoder.encoder import TactileEncoder
 from cltp.encoder.force_head import ForceHead, force_inputs
 from cltp.encoder.heads import StateHeads, Targets, targets
@@ -56,8 +54,8 @@ def calibrate_heads(
     encoder.eval(), heads.eval()
     pooled, labels, measured_mm = [], [], []
     with torch.no_grad():
-        for step, first in enumerate(range(0, CALIBRATION_VIEWS * len(chosen), 64)):
-            drawn = chosen[np.arange(first, first + 64) % len(chosen)]
+        for step, first in enumerate(range(0, CALIBRATION_VIEWS * len(chosen), BATCH)):
+            drawn = chosen[np.arange(first, first + BATCH) % len(chosen)]
             batch = sampler.batch(drawn, step)
             pooled.append(encoder(torch.from_numpy(batch.points)).pooled)
             labels.append(targets(batch.states))
@@ -109,7 +107,7 @@ def fit_force(
         rows = learned[:FORCE_CONTACTS]
         head.fit(*_force_samples(run, encoder, heads, sampler, rows), seed=run.seed)
     if len(held_out):
-        rows = np.resize(held_out[:CALIBRATION_CONTACTS], CALIBRATION_VIEWS * len(held_out))
+        rows = np.tile(held_out[:CALIBRATION_CONTACTS], CALIBRATION_VIEWS)
         head.widen(*_force_samples(run, encoder, heads, sampler, rows))
     heads.force = head
 
@@ -123,18 +121,13 @@ def _force_samples(
 ) -> tuple[Tensor, Tensor]:
     """Inputs (N, 43) of the force head and transformed forces (N,) of contacts that touch."""
     inputs, forces = [], []
-    for batch in _batches(sampler, rows):
+    for step, first in enumerate(range(0, len(rows), BATCH)):
+        batch = sampler.batch(rows[first : first + BATCH], step)
         labels = targets(batch.states)
         touched = labels.touching > 0
         points = torch.from_numpy(batch.points)[touched]
         with torch.no_grad():
             inputs.append(force_inputs(points, heads(encoder(points).pooled)))
         forces.append(labels.numbers[touched, _FORCE])
-        run.report("force", min(len(rows), BATCH * len(inputs)), len(rows), {})
+        run.report("force", min(len(rows), first + BATCH), len(rows), {})
     return torch.cat(inputs), torch.cat(forces)
-
-
-def _batches(sampler: Sampler, rows: NDArray[np.int64]) -> Iterator[Batch]:
-    """Batches of contacts, the last one filled up from the first."""
-    for step, first in enumerate(range(0, len(rows), BATCH)):
-        yield sampler.batch(rows[first : first + BATCH], step)

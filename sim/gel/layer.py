@@ -20,6 +20,7 @@ import torch
 from torch import Tensor
 
 from cltp.gel.compliance import GelMaterial, layer_compliance
+from cltp.gel.pressure import NOMINAL_GEL
 from cltp.tactile.sensors import SENSORS
 from sim.gel.compliance import Spectrum, spectrum_of
 from sim.gel.contact_solver import Solution, solve
@@ -36,13 +37,14 @@ _DEEPEST_GUESS_MM = 1e3  # upper bound of the depth from which the first guess i
 # by 7 %. The marker gel, DIGIT, GelSight R1.5 and taxels: assumed alike. GelStereo: as in TacFlex
 # by its makers (github.com/Zhang-Chaofan/TacFlex). The thickness is that of
 # ``cltp.tactile.sensors``.
+_MINI = (NOMINAL_GEL.young_mpa, NOMINAL_GEL.poisson)
 _ELASTICITY = {
-    "gelsight_mini": (0.423, 0.47),
-    "gelsight_mini_markers": (0.423, 0.47),
-    "gelsight_r15": (0.423, 0.47),
-    "digit": (0.423, 0.47),
+    "gelsight_mini": _MINI,
+    "gelsight_mini_markers": _MINI,
+    "gelsight_r15": _MINI,
+    "digit": _MINI,
     "gelstereo": (0.25, 0.47),
-    "taxels": (0.423, 0.47),
+    "taxels": _MINI,
 }
 
 GEL_MATERIALS: dict[str, GelMaterial] = {
