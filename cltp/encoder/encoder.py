@@ -60,9 +60,15 @@ _READING = {"bearing": 64, "projection": 256}
 VARIANTS: Mapping[str, EncoderVariant] = {
     # Ours: all heights in 75 × 100 cells, convolutions down to 7 × 9 groups.
     "grid": EncoderVariant(
-        build=lambda c: GridTokenizer(c.dim, c.stem_dim, c.stem_blocks),
+        build=lambda c: GridTokenizer(
+            c.dim, c.stem_dim, c.stem_blocks, has_pressure=bool(c.pressure)
+        ),
         presets={
             "grid": {**_READING, "num_groups": 63, "stem_dim": 32, "grades": 60},
+            "grid_pressure": {
+                **_READING,
+                **{"num_groups": 63, "stem_dim": 32, "grades": 60, "pressure": 1},
+            },
             "tiny_grid": {
                 **{"num_groups": 63, "dim": 48, "depth": 1, "heads": 2, "stem_dim": 4},
                 **{"bearing": 16},
@@ -121,6 +127,7 @@ _SIZES = {
     "bearing": (0, 1024),
     "projection": (0, 4096),
     "grades": (0, 1024),
+    "pressure": (0, 1),
 }
 """Smallest and largest size of any encoder; the largest published one is a third of it."""
 
@@ -143,6 +150,7 @@ class EncoderConfig:
         projection: Hidden width between the pooled tokens and the aligned feature; 0 for one
             matrix, as in the paper.
         grades: Bins of the piecewise linear encoding of height quantiles; 0 for none.
+        pressure: 1 for a grid that sees the pressure under its heights too, 0 for all others.
 
     Raises:
         TouchError: The sizes don't fit together.
@@ -160,6 +168,7 @@ class EncoderConfig:
     bearing: int = 0
     projection: int = 0
     grades: int = field(default=0, repr=False)  # see ``identity``
+    pressure: int = field(default=0, repr=False)
 
     def __post_init__(self) -> None:
         for name, (least, most) in _SIZES.items():
@@ -179,6 +188,8 @@ class EncoderConfig:
             raise TouchError(f"{self.grades} grades need height quantiles, got a bearing of 0")
         if self.bearing and not self.variant.has_places:
             raise TouchError(f"height quantiles are not for {self.tokenizer}")
+        if self.pressure and not self.counts_cells:
+            raise TouchError(f"{self.tokenizer} sees no pressure, only grids do")
 
     @property
     def variant(self) -> EncoderVariant:
@@ -191,8 +202,9 @@ class EncoderConfig:
 
     @property
     def identity(self) -> str:
-        """All sizes in one line; unchanged for encoders that are older than ``grades``."""
-        return f"{self} grades {self.grades}" if self.grades else str(self)
+        """All sizes in one line; unchanged for encoders that are older than the last two."""
+        last = {"grades": self.grades, "pressure": self.pressure}
+        return str(self) + "".join(f" {name} {size}" for name, size in last.items() if size)
 
 
 PRESETS: dict[str, EncoderConfig] = {

@@ -11,6 +11,7 @@ import torch
 import torch.nn.functional as F
 from torch import Tensor, nn
 
+from cltp.gel.pressure_maps import DAMPED, pressure_maps
 from cltp.tactile.encoder_input import GRID_UNIT_MM, OUTSIDE
 from cltp.tactile.point_layout import GRID, LATTICE
 
@@ -79,14 +80,17 @@ class GridTokenizer(nn.Module):
         dim: Width of the tokens.
         stem_dim: Channels at 38 × 50; three times as many at 19 × 25.
         blocks: Pairs of convolutions at either size.
+        has_pressure: Whether the pressure under the heights is seen beside them.
     """
 
     GROUPS = 63
 
-    def __init__(self, dim: int, stem_dim: int, blocks: int) -> None:
+    def __init__(self, dim: int, stem_dim: int, blocks: int, *, has_pressure: bool = False) -> None:
         super().__init__()
+        self.has_pressure = has_pressure
         wide = 3 * stem_dim
-        self.stem = nn.Conv2d(5, stem_dim, 3, stride=2, padding=1)
+        channels = 5 + len(DAMPED) * has_pressure
+        self.stem = nn.Conv2d(channels, stem_dim, 3, stride=2, padding=1)
         self.mix = nn.Sequential(*(ConvBlock(stem_dim) for _ in range(blocks)))
         self.widen = nn.Conv2d(stem_dim, wide, 3, stride=2, padding=1)
         self.mix_wide = nn.Sequential(*(ConvBlock(wide) for _ in range(blocks)))
@@ -96,7 +100,12 @@ class GridTokenizer(nn.Module):
 
     def forward(self, points: Tensor) -> Tensor:
         """Points (B, 7500, 3) to tokens (B, 63, C)."""
-        x = self.mix(self.stem(grid_channels(grid_maps(points))))
+        maps = grid_maps(points)
+        seen = grid_channels(maps)
+        if self.has_pressure:
+            pressures = maps.inside[:, None] * pressure_maps(maps.height)
+            seen = torch.cat([seen, pressures], dim=1)
+        x = self.mix(self.stem(seen.contiguous(memory_format=torch.channels_last)))
         x = self.mix_wide(self.widen(F.relu(x)))
         x = self.group(F.relu(x))
         return x.flatten(2).transpose(1, 2) + self.position

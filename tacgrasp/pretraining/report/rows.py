@@ -121,6 +121,10 @@ ROWS: Mapping[str, RowRecipe] = {
         learns_from="full",
     ),
     "cltp_quarter": _quarter("CLTP, all points, a quarter of the budget", _USUAL),
+    "cltp_pressure": replace(
+        _quarter("the same, which sees the pressure under the heights too", _USUAL),
+        preset="grid_pressure",
+    ),
     "papers_losses": _quarter(
         "CLTP by the paper's captions and losses alone, for CLIP too", _PAPERS, _PAPERS_CLIP
     ),

@@ -15,13 +15,17 @@ from tests.paths import ROOT
 
 KEYS = {
     "tokenizer", "dim", "depth", "heads", "num_groups", "group_size", "stem_dim", "stem_blocks",
-    "feature_dim", "bearing", "projection", "grades",
+    "feature_dim", "bearing", "projection", "grades", "pressure",
 }  # fmt: skip
-"""Keys of a stored configuration, which weights of earlier versions have."""
+"""Keys of a stored configuration; weights of earlier versions have all but the last."""
 
 
-@pytest.mark.parametrize("tokenizer", VARIANTS)
-def test_every_variant_is_read_back_as_it_was_written(tokenizer: str, tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("tokenizer", "pressure"), [*((name, 0) for name in VARIANTS), ("grid", 1)]
+)
+def test_every_variant_is_read_back_as_it_was_written(
+    tokenizer: str, pressure: int, tmp_path: Path
+) -> None:
     variant = VARIANTS[tokenizer]
     config = EncoderConfig(
         tokenizer=tokenizer,
@@ -31,6 +35,7 @@ def test_every_variant_is_read_back_as_it_was_written(tokenizer: str, tmp_path: 
         stem_dim=8,
         num_groups=variant.groups or 64,
         bearing=16 if variant.has_places else 0,
+        pressure=pressure,
     )
     encoder = TactileEncoder(config)
     save_frozen(tmp_path, encoder, "random")
