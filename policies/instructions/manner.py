@@ -112,12 +112,26 @@ _AS_BEFORE = re.compile(
 )
 """After 'as hard': as the task has it."""
 
+_CORRECTED = re.compile(
+    r"\b(?:no,? wait|wait,? no|i mean(?:t)?|correction|scratch that|or rather|pardon(?: me)?|oops|whoops|my mistake|"
+    r"(?:oh|hmm+|ah),? no)\b[ ,:.…!-]*"
+)
+_AS_USUAL = re.compile(
+    r"\b(?:normal(?:ly)?|usual(?:ly)?|ordinary|ordinarily|regular(?:ly)?|medium)\b"
+)
+
 _REACH = 60
 """Characters before a cue in which a denial turns it. Our choice: about ten words."""
 
 
 def read_manner(text: str) -> Manner:
-    """Manner of a plain text whose quantities have been replaced."""
+    """Manner of a plain text whose quantities have been replaced.
+
+    What is taken back ('hard, no wait, softly') does not count.
+    """
+    said, *corrected = _CORRECTED.split(text)
+    if corrected and has_manner(said) and _says_manner(corrected[-1]):
+        return read_manner(corrected[-1])
     cues = [cue for sentence, asks in sentences(text) for cue in _cues(sentence, asks)]
     for level in (2, 1):
         found = [cue for cue in cues if cue.level == level]
@@ -132,6 +146,10 @@ def read_manner(text: str) -> Manner:
             is_conflict = level == 2 and not is_between
             return Manner(sign=0, words=said, conflict=said if is_conflict else "")
     return Manner(sign=0)
+
+
+def _says_manner(text: str) -> bool:
+    return has_manner(text) or _AS_USUAL.search(text) is not None
 
 
 def has_manner(clause: str) -> bool:

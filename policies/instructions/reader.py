@@ -77,7 +77,9 @@ _THIS_WHILE = re.compile(
 )
 _USUAL_GRIP = re.compile(
     r"\bwhatever (?:force|grip|squeeze|pressure)? ?(?:you think )?(?:is |seems )?(?:right|best|needed|necessary|fit|appropriate)\b|"
-    r"\b(?:standard|usual|normal|regular|default|same|ordinary) (?:old )?(?:grip|grasp|hold|force|pick)\b|"
+    r"\b(?:standard|usual|normal|regular|default|same|ordinary|medium|average|everyday) (?:old |amount of |level of )?"
+    r"(?:grip|grasp|hold|force|pick|strength|pressure|squeeze)\b|"
+    r"\b(?:just|simply|only) (?:normal|ordinary|regular|usual)(?:ly)?\b|"
     r"^(?:please |just |do )*(?:the |it )?same(?: (?:procedure|way|thing|force|grip))? as (?:usual|before|last time|always)\b|"
     r"^(?:please |just |do )*(?:it |business )?(?:as|like) (?:usual|normal|always|before|last time|ever)\b|"
     rf"{words.any_of('neither')}|"

@@ -17,10 +17,11 @@ from cltp.tactile.encoder_input import encoder_input
 from cltp.tactile.states import NO_CONTACT_STATE
 from policies.llm.spoken import SpokenContact, spoken_contact
 from primitives.contract import Contract
+from tacgrasp.lessons.answering import answered
 from tacgrasp.lessons.dialogue.answers import Answer
 from tacgrasp.lessons.dialogue.meaning import AnswerKind
 from tacgrasp.lessons.dialogue.scene import AskedScene
-from tacgrasp.lessons.understanding import answered, understood_in_turn
+from tacgrasp.lessons.understanding import understood_in_turn
 from tacgrasp.playback.describe import RAISED, cloud_flags, zero_flags
 
 

@@ -32,6 +32,7 @@ from sim.full.series import press_on_gel
 from sim.gel.layer import gel_of
 from sim.grasp.rig import BENCHMARK_SEED
 from tacgrasp.base.errors import UsageError
+from tacgrasp.lessons.answering import answered
 from tacgrasp.lessons.dialogue.scene import AskedScene
 from tacgrasp.lessons.dialogue.scoring.question_file import QuestionRow
 from tacgrasp.lessons.question_draws import draw_scene, drawn_rows
@@ -48,7 +49,6 @@ from tacgrasp.lessons.question_scores import (
 )
 from tacgrasp.lessons.understanding import (
     ReadQuestion,
-    answered,
     understood_by_grammar,
     understood_by_model,
 )

@@ -94,7 +94,7 @@ _ALTERNATIVES = (
 )
 """'0.5 or 1 N', '1 N or 0.8'."""
 _CORRECTED = re.compile(
-    rf"\b(?:no(?!\.)|wait|make (?:that|it)|i mean|i meant|correction|scratch that|or rather|better(?: still| yet)?|sorry|actually|otherwise|else)[ ,:.…!-]*(?:(?:i (?:mean|meant|said)|use|make (?:it|that)|only|just|no|wait|rather) )*(?P<a>{NUMBER}){_AFTER}"
+    rf"\b(?:no(?!\.)|wait|make (?:that|it)|i mean|i meant|correction|scratch that|or rather|better(?: still| yet)?|sorry|pardon(?: me)?|oops|whoops|my mistake|actually|otherwise|else)[ ,:.…!-]*(?:(?:i (?:mean|meant|said)|use|make (?:it|that)|only|just|no|wait|rather) )*(?P<a>{NUMBER}){_AFTER}"
 )
 """'0.5 N, no wait, 0.8'."""
 _ONE_ALONE = re.compile(

@@ -31,7 +31,7 @@ _BETWEEN = re.compile(
 )
 _WITHIN = re.compile(r"(?:between|from|in|within)\b")
 _CORRECTION = re.compile(
-    r"\b(?:no,? wait|wait,? no|make (?:that|it)|i mean|i meant|correction|scratch that|in other words|i\.e\.|meaning|or rather|sorry|actually|(?:or )?better(?: still| yet)?(?=[ ,:]*$))\b[ ,:-]*"
+    r"\b(?:no,? wait|wait,? no|make (?:that|it)|i mean|i meant|correction|scratch that|in other words|i\.e\.|meaning|or rather|sorry|pardon(?: me)?|oops|whoops|my mistake|(?:hmm+|oh),? no|actually|(?:or )?better(?: still| yet)?(?=[ ,:]*$))\b[ ,:-]*"
 )
 _CONDITION = re.compile(
     r"\bif\b.*?(?=\b(?:use|hold|grip|apply|take|go|try|squeeze|press|then)\b)|\bif not\b"
@@ -79,6 +79,8 @@ def read_forces(text: str) -> tuple[list[Force], str, str]:
             low, high = sorted(ends)
             is_outside = bool(_OUTSIDE.search(left)) and not NOT.search(left)
             kept = not (_DROPPED.search(left) or is_outside)
+            if _CORRECTION.search(left):
+                found = [(force, False) for force, _ in found]
             if not kept or _NOT_WITH.search(left):
                 kept, denied = False, words
             found += [

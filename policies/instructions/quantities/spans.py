@@ -36,6 +36,7 @@ _BOUNDED = re.compile(
 )
 """Behind a mass that stands alone: it bounds a force."""
 _THING = re.compile(
+    r"\s*,? an? (?!force|grip|squeeze|press|push|limit|most|little|bit|tad|touch|gram)\w+|"
     r"\s*-?\s*(?:heavy )?(?:\w+ )?(?:berry|berries|strawberry|fruit|one|piece|object|thing|specimen|heavy|in weight)\b"
 )
 

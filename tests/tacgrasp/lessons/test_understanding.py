@@ -6,12 +6,11 @@ from types import SimpleNamespace
 import pytest
 
 from tacgrasp.lessons import joined_questions, understanding
+from tacgrasp.lessons.answering import NOT_UNDERSTOOD, answered
 from tacgrasp.lessons.dialogue.query import read_query
 from tacgrasp.lessons.query_classifier import QueryOdds
 from tacgrasp.lessons.understanding import (
-    NOT_UNDERSTOOD,
     ReadQuestion,
-    answered,
     understood,
     understood_in_turn,
 )

@@ -4,7 +4,8 @@ from dataclasses import replace
 
 import pytest
 
-from tacgrasp.lessons.understanding import answered, understood, understood_in_turn
+from tacgrasp.lessons.answering import answered
+from tacgrasp.lessons.understanding import understood, understood_in_turn
 from tests.fakes.question_scenes import HELD
 
 

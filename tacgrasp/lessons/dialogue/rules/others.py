@@ -44,7 +44,7 @@ _EARLIER = re.compile(
 )
 _CHANGED = re.compile(
     r"\b(?:increas|decreas|chang|grow|shrink|ris|drift)(?:e|ed|es|ing|en|n|s)?\b|"
-    r"\b(?:got|gotten|getting|become|became|becoming) \w+(?:er)?\b"
+    r"\b(?:got|gotten|getting|become|became|becoming) (?:any )?(?:more|less|\w+er)\b"
 )
 _ASKS_CHANGE = re.compile(
     r"(?:is|are|was|has|have|had|did|does)\b(?!.*\b(?:should|must|need|band|limit)\b)"

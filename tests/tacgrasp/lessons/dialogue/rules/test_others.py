@@ -17,6 +17,7 @@ from tacgrasp.lessons.dialogue.rules.unread import is_beyond
         ("Is it deeper than before?", "unknown past."),
         ("Did the force increase since the last frame?", "unknown past."),
         ("How long have we been in contact?", "unknown past."),
+        ("Has it got any deeper?", "unknown past."),
         ("What's the tangential load?", "unknown trait."),
         ("How many dots are there?", "unknown trait."),
         ("How wide is the contact in mm?", "unknown size."),
@@ -37,6 +38,8 @@ def test_a_class_of_questions_has_its_query(question, query):
         "Which side is it on?",
         "Should I press more?",
         "How deep is it?",
+        "Has the imprint got the form of a triangle?",
+        "Has it become deep?",
         "The depth in centimetres, since our form only takes those?",
     ],
 )
