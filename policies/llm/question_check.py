@@ -27,7 +27,8 @@ ENGLISH = frozenset(_ENGLISH.split())
 hold against it they are rare."""
 
 _SHORT_WORDS = frozenset(
-    "a i an as at be by do go in is it me my no of on or so to up us we".split(" ")  # noqa: SIM905
+    "a i an as at be by do go in is it me my no of on or so to up us we ok "  # noqa: SIM905
+    "n mn cn g kg mm cm µm lb oz".split(" ")
 )
 
 

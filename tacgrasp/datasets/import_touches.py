@@ -234,8 +234,8 @@ def _contact(
         raise RowError(f"series must be a number from 0, got {series!r}")
     cloud = cloud_from_heights(heights, sensor)
     # A tip that is finer than a cell of the measurement touches as well.
-    shallow = source.least_depth_mm != NO_CONTACT_MM
-    touching = highest >= source.least_depth_mm if shallow else None
+    is_told = source.least_depth_mm != NO_CONTACT_MM or any(name in cells for name in DIMENSIONS)
+    touching = highest >= source.least_depth_mm if is_told else None
     measured_state = contact_state(cloud, in_contact=touching)
     state, measured = _with_labels(measured_state, cells, source.least_depth_mm)
     return Contact(

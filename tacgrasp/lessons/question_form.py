@@ -35,6 +35,14 @@ _ANOTHER_CLAUSE = re.compile(
     re.I,
 )
 
+_JOINT = re.compile(
+    r"\b(?:and|plus|also|both|besides|additionally|further|then|nor|but|yet|as well|along with|"
+    r"together with|followed by)\b|[?!;:/&+]\s*\w|[.\n]\s+\w",
+    re.I,
+)
+_LIST = re.compile(r"[^,]+(?:, *(?:\S+ ?){1,4})+")
+"""'Shape, depth, force in grams?'."""
+
 _CALLED_FALSE = re.compile(
     r"(?:(?:is|was|would) it (?:be )?(?:(?:false|untrue|wrong|incorrect|inaccurate|mistaken)|"
     r"not (?:true|correct|right|the case|so)|an? (?:mistake|error|lie))"
@@ -51,7 +59,10 @@ def is_unlikely(question: str, query: str) -> bool:
         question: The question, as ``tacgrasp.lessons.dialogue.plainer`` leaves it.
         query: The query (``tacgrasp.lessons.dialogue.query``).
     """
-    kinds = {part.strip().partition(" ")[0].rstrip(".") for part in query.split(";")}
+    parts = query.split(";")
+    if len(parts) > 1 and not (_JOINT.search(question) or _LIST.fullmatch(question.strip(" ?.!"))):
+        return True
+    kinds = {part.strip().partition(" ")[0].rstrip(".") for part in parts}
     if "why" in kinds and not _ASKS_WHY.search(question):
         return True
     if not _BEGINS_WITH_VERB.match(question) or _INDIRECT.match(question):

@@ -3,8 +3,10 @@
     How far left is it?                 amount x mm.          becomes amount leftward mm.
     Is it more than 2 mm left of it?    check x > #1 mm.      becomes check x < -#1 mm.
     How far down is it?                 amount y mm.          becomes amount tipward mm.
+    How far left, minus for the right?  amount x mm.          becomes amount leftward mm.
 
-Readers take such a question for one about the coordinate. What names both sides, or a sign, is one.
+Readers take such a question for one about the coordinate. What names both sides, or a sign, is one,
+unless the sign is that of the side.
 """
 
 from __future__ import annotations
@@ -35,6 +37,17 @@ _SIDES = (
     ),
 )
 _SIGN = re.compile(r"\b(?:minus|negative|plus|positive|sign|signed)\b")
+_SIGN_OF_SIDE = (
+    re.compile(
+        r"\b(?P<sign>minus|negative|plus|positive) "
+        r"(?:(?:for|if|when|to|towards?|means|meaning|is|being|the|it|its) )*"
+        r"(?P<side>[a-z]+)"
+    ),
+    re.compile(
+        r"\b(?P<side>[a-z]+) (?:(?:counted|counts|counting|taken|being|is|as) )+"
+        r"(?P<sign>minus|negative|plus|positive)"
+    ),
+)
 _TURNED = {">": "<", "<": ">", ">=": "<=", "<=": ">="}
 
 
@@ -46,6 +59,9 @@ def to_named_side(query: str, words: str) -> str:
         words: The question in plain words.
     """
     if _SIGN.search(words):
+        for side in _SIDES:
+            if _is_counted_to(side, words):
+                query = re.sub(rf"\bamount {side.coordinate}\b", f"amount {side.amount}", query)
         return query
     for side in _SIDES:
         if side.named.search(words) and not side.other.search(words):
@@ -58,3 +74,12 @@ def to_named_side(query: str, words: str) -> str:
                 query,
             )
     return query
+
+
+def _is_counted_to(side: _Side, words: str) -> bool:
+    """Whether words give a side the plus, or the other one the minus."""
+    for pattern in _SIGN_OF_SIDE:
+        if told := pattern.search(words):
+            of = side.named if told["sign"] in ("plus", "positive") else side.other
+            return of.fullmatch(told["side"]) is not None
+    return False

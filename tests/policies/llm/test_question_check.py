@@ -21,6 +21,7 @@ def words() -> Words:
         "Whose cuckoo clock chimes?",
         "hows the weather",
         "is it rough",
+        "Is 0.5 N ok for 30 g?",
     ],
 )
 def test_plain_english_with_rare_words_is_for_the_model_to_answer(

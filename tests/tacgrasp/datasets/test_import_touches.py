@@ -220,3 +220,15 @@ def test_a_fraction_of_the_series_is_held_out_whole(touches):
 def test_all_can_not_be_held_out(touches, fraction, capsys):
     assert imported(touches, "file\nmap.npy\n", "--held-out", fraction)[0] == 2
     assert "--held-out must be 0 to below 1" in capsys.readouterr().err
+
+
+def test_a_tip_finer_than_a_cell_touches_where_a_person_says_so(touches):
+    tip = np.zeros(X.shape)
+    tip[100, 100:102] = 0.25
+    np.save(touches / "tip.npy", tip)
+    code, out = imported(touches, FULL + "tip.npy,peak,smooth,,,,,,,\ntip.npy,,,,,,,,,\n")
+    assert code == 0
+    told, untold = (ContactDataset(out).contact(index).state for index in range(2))
+    assert told.in_contact
+    assert told.shape is Shape.PEAK
+    assert not untold.in_contact

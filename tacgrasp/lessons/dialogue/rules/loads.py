@@ -4,6 +4,7 @@ Is 0.5 N ok for 30 g?                   check needed #2 g <= #1 N.
 Will 30 g slip at 0.5 N?                check needed #1 g > #2 N.
 Would it hold 10 g and 50 g?            check stays #1 g; check stays #2 g.
 How much force for 10 g and 50 g?       amount needed #1 g N; amount needed #2 g N.
+How many grams does it hold?            amount holds g.
 """
 
 from __future__ import annotations
@@ -31,6 +32,17 @@ _HOLDS = re.compile(
     r"sufficient|stay|stays)\b"
 )
 _SLIPS = re.compile(r"\b(?:slips?|slipping|drops?|dropped|falls?|fall|slides?|lose|lost)\b")
+_HELD = re.compile(
+    r"(?:how (?:many|much|heavy)|what|which)"
+    r"(?: (?:an?|the|mass|weight|load|grams?|kilos?|kilograms?|kg|g|pounds?|lbs?|ounces?|oz|most|"
+    r"maximum|largest|heaviest))*"
+    r"(?: (?:does|can|could|would|will|do|is))?"
+    r"(?: (?:it|this|that|you|we|they|"
+    r"(?:the|this|that|our|your) (?:grip|gripper|grasp|fingers?|hold)))?"
+    r"(?: (?:be able to|able to|safely|surely|currently|still|now))*"
+    r" (?:hold|carry|lift|bear|support|hold up)"
+    r"(?: (?:now|safely|surely|at most|in \w+|like this|as it is))*"
+)
 _VERB = re.compile(r"(?:is|are|was|will|would|can|could|does|do|should|may|might|has|#)(?= |$)")
 _ASKS_FORCE = re.compile(
     r"(?:how (?:much|strong|hard|many newtons)|what|which)\b.*\b(?:force|grip|newtons?|squeeze)\b"
@@ -53,6 +65,8 @@ def load_query(words: str) -> str:
         if _TOO_LITTLE.search(words):
             return f"check {tested} > {newtons}."
         return f"check {tested} <= {newtons}." if _ENOUGH.search(words) else ""
+    if not units and _HELD.fullmatch(words):
+        return "amount holds g."
     if len(units) > 1 and not forces and units[-1] in _MASS_UNITS and _are_listed(words):
         shared = _MASS_UNITS[units[-1]]
         each = [f"#{n} {_MASS_UNITS.get(unit, shared)}" for n, unit in enumerate(units, start=1)]

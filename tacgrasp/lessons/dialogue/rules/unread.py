@@ -13,6 +13,7 @@ from policies.instructions.quantities.numerals import in_digits
 _NUMBER = r"(?<![\d.,])(\d+(?:\.\d+)?)"
 _PRESSURE = r"(?:[kmh]?pa|(?:kilo|mega|hecto)?pascals?|psi|bars?|atm)\b"
 _NEWTONS = rf"{_NUMBER} ?m?n(?:ewtons?)?"
+_SAME = r"(?:(?! and | or |[,;?]).){0,30}"
 _PATTERNS = (
     # pressures
     rf"(?:{_NUMBER}|\bin|\bof|\bmany)\s*{_PRESSURE}",
@@ -47,6 +48,14 @@ _PATTERNS = (
     r"(?:edge|rim|border|margin)\b",
     r"\b(?:x or y|x and y|(?:both|either) (?:of the )?offsets?)\b.*\d",
     r"\b(?:left|right|tip|palm)wards?\b.*(?:microns?|micromet\w+|[µu]m|cm|centimet\w+)\b",
+    # another friction, and another pad, than what answers go by
+    rf"\bcoefficient\b|\bfriction (?:of|as|at|is|being) {_NUMBER}",
+    r"\b(?:pad|sensor|gel|face)(?: \w+)? (?:is|were|was|measures|has|as|spans) "
+    rf"{_NUMBER} ?(?:mm|cm|square|by)",
+    # units that a quantity can't have
+    rf"\b(?:depth|deep|indentation|dent)\b{_SAME} in (?:grams?|g|kg|kilos?|newtons?|m?n|percent)\b",
+    rf"\b(?:force|squeeze)\b{_SAME} in (?:mm|millimet\w+|microns?|micromet\w+|[µu]m|cm)\b",
+    rf"\b(?:area|patch|footprint)\b{_SAME} in (?:grams?|g|newtons?|m?n)\b",
     # denials that nothing reads
     r"\bneither\b.*\bnor\b",
 )

@@ -9,6 +9,8 @@ from tacgrasp.lessons.dialogue.sided_questions import to_named_side
         ("how far left is it", "amount x µm.", "amount leftward µm."),
         ("how far is it to the left", "amount x mm in a word.", "amount leftward mm in a word."),
         ("how far down is it", "amount y mm.", "amount tipward mm."),
+        ("how far to the left minus for the right", "amount x mm.", "amount leftward mm."),
+        ("how far off left counted as plus", "amount x mm.", "amount leftward mm."),
         ("over # mm below the middle", "check y > #1 mm.", "check y < -#1 mm."),
         ("not at most # mm left", "check not x <= #1 mm.", "check not x >= -#1 mm."),
         (
@@ -28,6 +30,7 @@ def test_a_query_counts_to_the_side_that_is_named(words, query, turned):
         ("how far right is it", "amount x mm."),
         ("how far left or right is it", "amount x mm."),
         ("how far left counting as negative", "amount x mm."),
+        ("how far to the right minus for the left", "amount x mm."),
         ("is x below # mm", "check x < #1 mm."),
         ("is y below # mm", "check y < #1 mm."),
         ("how far down is it and how deep", "amount depth mm."),

@@ -2,10 +2,12 @@
 
 import pytest
 
+from tacgrasp.lessons.answering import answered
 from tacgrasp.lessons.dialogue.answers import answer
 from tacgrasp.lessons.dialogue.query import asked_text
 from tacgrasp.lessons.dialogue.rules.loads import load_query
 from tacgrasp.lessons.dialogue.rules.ruled import ruled
+from tacgrasp.lessons.understanding import understood_by_grammar
 from tests.fakes.question_scenes import HELD
 
 
@@ -49,7 +51,23 @@ def test_a_named_mass_is_judged_by_the_force_that_surely_holds_it(question, text
         "Is it between 10 and 50 g?",
         "Is it 0.5 N or 1 N?",
         "How many newtons hold 30 g at 2 N?",
+        "How much more could it hold?",
+        "How many newtons does it hold with?",
     ],
 )
 def test_other_questions_are_not_read(question):
     assert load_query(asked_text(question).words) == ""
+
+
+@pytest.mark.parametrize(
+    ("question", "text"),
+    [
+        ("How many grams does it hold?", "40 g."),
+        ("What load can this grip safely carry?", "40 g."),
+        ("What mass would it hold, in pounds?", "0.088 lb."),
+    ],
+)
+def test_the_load_that_is_held_is_no_force(question, text):
+    read = understood_by_grammar(question)
+    assert read is not None
+    assert answered(read, HELD).answer.text == text

@@ -61,6 +61,12 @@ def test_others_are_left_to_the_readers(question):
         "Is the force closer to 0.5 N or to 1 N?",
         "Are both offsets below 2 mm?",
         "leftward more than 300 microns",
+        "depth in grams",
+        "How deep is it in newtons?",
+        "What is the force in mm?",
+        "With a friction coefficient of 0.8, how much can it carry?",
+        "Given friction of 0.5, would 30 g slip?",
+        "If the pad is 400 mm² large, how much of it is touched?",
         "Is it neither zorby nor deep?",
     ],
 )
