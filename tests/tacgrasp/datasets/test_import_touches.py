@@ -224,7 +224,7 @@ def test_all_can_not_be_held_out(touches, fraction, capsys):
 
 def test_a_tip_finer_than_a_cell_touches_where_a_person_says_so(touches):
     tip = np.zeros(X.shape)
-    tip[100, 100:102] = 0.25
+    tip[24, 30:32] = 0.25
     np.save(touches / "tip.npy", tip)
     code, out = imported(touches, FULL + "tip.npy,peak,smooth,,,,,,,\ntip.npy,,,,,,,,,\n")
     assert code == 0
