@@ -226,7 +226,8 @@ def test_a_tip_finer_than_a_cell_touches_where_a_person_says_so(touches):
     tip = np.zeros(X.shape)
     tip[24, 30:32] = 0.25
     np.save(touches / "tip.npy", tip)
-    code, out = imported(touches, FULL + "tip.npy,peak,smooth,,,,,,,\ntip.npy,,,,,,,,,\n")
+    np.save(touches / "again.npy", tip)
+    code, out = imported(touches, FULL + "tip.npy,peak,smooth,,,,,,,\nagain.npy,,,,,,,,,\n")
     assert code == 0
     told, untold = (ContactDataset(out).contact(index).state for index in range(2))
     assert told.in_contact
