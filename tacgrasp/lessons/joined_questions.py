@@ -29,7 +29,9 @@ MOST_JOINTS = 8
 have fewer, and a pasted page would take seconds."""
 
 JOINT = re.compile(
-    r"\s*[?;.]\s+(?:and\s+)?|\s*,\s+(?:(?:and|but)\s+)?|\s+(?:and|plus|but)\s+", re.I
+    r"\s*[?;.]\s+(?:oh,?\s+)?(?:and\s+|also\s+)?|\s*,?\s+(?:as well as|along with|and also)\s+|"
+    r"\s*,\s+(?:(?:and|but)\s+)?|\s+(?:and|plus|but)\s+",
+    re.I,
 )
 """What joins two questions."""
 

@@ -44,14 +44,10 @@ from tacgrasp.lessons.dialogue.sided_questions import to_named_side
 from tacgrasp.lessons.dialogue.written_units import in_asked_unit, numbers_in_units
 from tacgrasp.lessons.joined_questions import (
     JOINT,
-    MOST_JOINED,
-    MOST_JOINTS,
     REQUEST,
     asked_together,
     is_either,
     joinable,
-    joined,
-    read_part,
     together,
     with_adjective,
 )
@@ -78,6 +74,13 @@ FOLLOW_UP_WORDS = 5
 
 ALONE_FROM = 0.5
 """Confidence from which a question that does not begin as a follow-up is none. Our choice."""
+
+PARTS_FROM = 0.4
+"""Confidence from which two questions, each read by itself, are preferred to what the model makes
+of both together. Our choice, by questions that are not the kept-out ones."""
+
+MOST_DIVIDED = 3
+"""Most places where a question is divided in two. Our choice: a pasted page would take seconds."""
 
 _FOLLOWS = re.compile(r"(?:and|but|then|why|how come|what about|how about|same)\b", re.I)
 
@@ -208,8 +211,11 @@ def understood_by_model(
         numbers = numbers_in_units(told, asked.words, asked.numbers)
         query, meaning = told, read_query(told, numbers or asked.numbers) or meaning
     read = ReadQuestion(query, meaning, confidence=float(weights[best] / weights.sum()))
-    partly = None if before else _partly_known(writer, plain, read.confidence)
-    return _as_one(plain, partly if partly and _asks_more(partly, read) else read)
+    if not before and (parts := _in_parts(writer, plain)):
+        least = PARTS_FROM if isinstance(meaning, Several) else ALONE_FROM
+        if parts.confidence >= least and (isinstance(meaning, Several) or _asks_more(parts, read)):
+            read = parts
+    return _as_one(plain, read)
 
 
 def _as_told(query: str, words: str) -> str:
@@ -217,28 +223,32 @@ def _as_told(query: str, words: str) -> str:
     return in_asked_unit(to_named_side(query, words), words)
 
 
-def _partly_known(writer: QueryWriter, question: str, confidence: float) -> ReadQuestion | None:
-    """What wordings of the grammar and one that it lacks ask together; None of others.
+def _in_parts(writer: QueryWriter, question: str) -> ReadQuestion | None:
+    """What two questions ask that are joined in one, each read by itself; None where one is not.
 
     A comma alone may stand before an addition: 'the force, in plain newtons'.
     """
     question = REQUEST.sub("", question, count=1)
     joints = [joint for joint in JOINT.finditer(question) if joint[0].strip() != ","]
-    for joint in reversed(joints[:MOST_JOINTS]):
-        begin, end = question[: joint.start()], question[joint.end() :]
-        for known, lacked in ((begin, end), (end, begin)):
-            parts = joinable(read_part(known)) or joined(known, MOST_JOINED - 1)
-            other = understood_by_model(writer, lacked) if parts else None
-            if other is None or other.confidence < ALONE_FROM:
-                continue
-            others = joinable(other.meaning)
-            meaning = together(parts + others if known == begin else others + parts)
-            try:
-                query = query_of(meaning, asked_text(question).numbers)
-            except ValueError:
-                continue
-            return ReadQuestion(query, meaning, min(confidence, other.confidence))
-    return None
+    best: ReadQuestion | None = None
+    for joint in joints[:MOST_DIVIDED]:
+        parts = [
+            understood(writer, part)
+            for part in (question[: joint.start()], question[joint.end() :])
+            if part.strip()
+        ]
+        told = [part for part in parts if part is not None and joinable(part.meaning)]
+        if len(told) < 2 or min(part.confidence for part in told) <= (
+            best.confidence if best else 0
+        ):
+            continue
+        meaning = together([one for part in told for one in joinable(part.meaning)])
+        try:
+            query = query_of(meaning, asked_text(question).numbers)
+        except ValueError:  # more parts than a query has, or a number that is no number of it
+            continue
+        best = ReadQuestion(query, meaning, sure)
+    return best
 
 
 def _asks_more(joined: ReadQuestion, read: ReadQuestion) -> bool:
