@@ -38,8 +38,9 @@ class AskFlags:
     In mm, positive into the gel, with the untouched gel at 0.
 
     Without a question, a dialogue: follow-ups such as "Why?" are put with the exchange before, an
-    empty line or ctrl-D ends it. Without a terminal, each line of the input is answered by a line;
-    where one can't be answered, the line says why (with --json as "error"), and the exit code is 2.
+    empty line or ctrl-D ends it. Without a terminal, each line of the input is answered by a line,
+    a blank one by a blank one (with --json by null); where one can't be answered, the line says why
+    (with --json as "error"), and the exit code is 2.
 
     Attributes:
         file: Cloud, height map, or a frame of the sensor's camera (.png .jpg .bmp).
@@ -122,7 +123,11 @@ def main(argv: Sequence[str]) -> int:
         sys.stdout.write(line + "\n")
         sys.stdout.flush()
 
-    return _answer_lines(talk, policy.check, show, show_error)
+    def show_blank() -> None:
+        sys.stdout.write("null\n" if flags.json else "\n")
+        sys.stdout.flush()
+
+    return _answer_lines(talk, policy.check, show, show_error, show_blank)
 
 
 def _contract(flags: AskFlags) -> Contract | None:
@@ -192,10 +197,12 @@ def _answer_lines(
     check: Callable[[str], None],
     show: Callable[[Spoken], None],
     show_error: Callable[[str], None],
+    show_blank: Callable[[], None],
 ) -> int:
-    """Answer each line of the input that is not empty by a line; returns the exit code.
+    """Answer each line of the input by a line; returns the exit code.
 
     A line that can't be answered is told in its place and on stderr, and does not end the others.
+    A blank line keeps its place too, so that answers can be laid beside their questions.
 
     Raises:
         UsageError: There is no question.
@@ -203,6 +210,7 @@ def _answer_lines(
     is_asked, code = False, 0
     for number, line in enumerate(sys.stdin, start=1):
         if not line.strip():
+            show_blank()
             continue
         is_asked = True
         try:

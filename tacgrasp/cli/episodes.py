@@ -69,8 +69,10 @@ class PlotFlags:
 class ExportFlags:
     """Write episodes in a format of other programs; the episodes stay as they are.
 
+    What an incomplete episode lacks is told on standard error; the rest is written.
+
     Attributes:
-        episodes: The .mcap files; several for lerobot alone.
+        episodes: The .mcap files; several, each of another run, for lerobot alone.
         to: lerobot (a data set of LeRobot v3.0), parquet (one table), rrd (rerun; extra 'view').
         out: New file to write, for lerobot a folder; by default the first episode's name with
             .parquet, .rrd or -lerobot.
@@ -140,8 +142,9 @@ def _plot(flags: PlotFlags) -> None:
 
 def _export(flags: ExportFlags) -> None:
     from cltp.atomic_write import replacing
+    from tacgrasp.cli.incomplete import read_and_warn
     from tacgrasp.console import make_console, working
-    from tacgrasp.episodes import EpisodeError, read_episode
+    from tacgrasp.episodes import EpisodeError
     from tacgrasp.episodes.paths import refusal
 
     first = flags.episodes[0]
@@ -151,7 +154,8 @@ def _export(flags: ExportFlags) -> None:
         if flags.to == "lerobot":
             from tacgrasp.episodes.export.lerobot import write_lerobot
 
-            episodes = [read_episode(path) for path in flags.episodes]
+            episodes = [read_and_warn(path) for path in flags.episodes]
+            _refuse_twice(flags.episodes, episodes)
             write_lerobot(episodes, out, language=flags.language)
         else:
             check_ending(out, f".{flags.to}")
@@ -159,7 +163,7 @@ def _export(flags: ExportFlags) -> None:
                 raise EpisodeError(
                     f"{out} exists; exports are never overwritten, give another --out"
                 )
-            episode = read_episode(first)
+            episode = read_and_warn(first)
             write = _writer(flags.to)
             try:
                 with replacing(out) as part:
@@ -167,6 +171,24 @@ def _export(flags: ExportFlags) -> None:
             except OSError as error:
                 raise EpisodeError(refusal(out, "write", error, flag="--out")) from None
     make_console().print(f"written: {out}")
+
+
+def _refuse_twice(paths: Sequence[Path], episodes: Sequence[Episode]) -> None:
+    """Refuse two files of one run, as one that was named twice, copied or recovered.
+
+    Raises:
+        UsageError: The first two.
+    """
+    from tacgrasp.episodes.codec import to_json
+
+    headers = [to_json(episode.header) for episode in episodes]
+    for number, header in enumerate(headers):
+        if header in headers[:number]:
+            first, second = paths[headers.index(header)], paths[number]
+            what = f"{first} and {second} are of the same run"
+            if first == second:
+                what = f"{first} is named twice"
+            raise UsageError(f"{what}; a data set holds a run once, leave one out")
 
 
 def _writer(kind: str) -> Callable[[Episode, Path], None]:

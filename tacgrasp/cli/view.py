@@ -87,13 +87,13 @@ def main(argv: Sequence[str]) -> int:
 
 
 def _show(flags: ViewFlags, viewer: Viewer) -> int:
+    from tacgrasp.cli.incomplete import read_and_warn
     from tacgrasp.config.layers import load
-    from tacgrasp.episodes import read_episode
     from tacgrasp.viewer.show import show_episode
 
     if flags.episode is not None:
         stream = viewer.stream(flags.episode.stem)
-        num_steps = show_episode(read_episode(flags.episode), stream)
+        num_steps = show_episode(read_and_warn(flags.episode), stream)
         stream.flush()
         return num_steps
 

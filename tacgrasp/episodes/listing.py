@@ -14,7 +14,7 @@ from rich.markup import escape
 from rich.table import Table
 
 from tacgrasp.episodes.errors import EpisodeError
-from tacgrasp.episodes.reader import read_episode
+from tacgrasp.episodes.reader import incomplete_text, read_episode
 from tacgrasp.episodes.record import NO_END, Episode, EpisodeEnd, StepPhase, end_label, harms
 
 _YES_NO = {True: "yes", False: "no", None: "not tried"}
@@ -66,10 +66,9 @@ def info(path: Path) -> Table:
     started = datetime.fromtimestamp(header.stamp.wall_s, tz=UTC)
     executed = [step.executed.primitive for step in episode.steps if step.executed is not None]
     actions = Counter(primitive.value for primitive in executed if primitive is not None)
-    recover = f"`tacgrasp episodes recover {path}` makes a finished file of it"
     rows = {
         "file": f"{path} ({_size(path.stat().st_size)})",
-        "complete": "yes" if episode.complete else f"no: {episode.problem}; {recover}",
+        "complete": "yes" if episode.complete else f"no: {incomplete_text(episode, path)}",
         "task": header.task,
         "instruction": header.instruction,
         "policy": header.policy,
@@ -108,7 +107,7 @@ def _row(path: Path) -> list[str]:
     outcome = _end_text(end) if end else "no end recorded"
     colour = "green" if outcome == "success" else "yellow"
     if not episode.complete:
-        outcome += ", unfinished: recover it"
+        outcome += ", incomplete" if episode.finished else ", unfinished: recover it"
     return [
         name,
         escape(episode.header.policy),

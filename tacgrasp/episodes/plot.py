@@ -101,7 +101,7 @@ def _title(figure: Figure, episode: Episode, name: str, height_in: float) -> Non
     header, end = episode.header, episode.end
     outcome = f"{end_label(end.reason, end.truth)}: {end.message}" if end else "no end recorded"
     if not episode.complete:
-        outcome += " (unfinished file)"
+        outcome += " (incomplete)" if episode.finished else " (unfinished file)"
     seed = "" if header.seed is None else f", seed {header.seed}"
     title = f"{header.task}, {header.policy}{seed} → {outcome}"
     title = textwrap.shorten(title, TITLE_LENGTH, placeholder=" …")
@@ -109,6 +109,8 @@ def _title(figure: Figure, episode: Episode, name: str, height_in: float) -> Non
     subtitle = f"“{header.instruction}”   {name}"
     if len(episode.steps) > MAX_PICTURES:
         subtitle += f"   ({MAX_PICTURES} of {len(episode.steps)} touches shown)"
+    if episode.missing:
+        subtitle += f"   ({episode.missing})"
     figure.text(0.04, 1 - 0.62 / height_in, subtitle, fontsize=10, color=_MUTED)
 
 

@@ -6,7 +6,7 @@ Not here: restoring a file for other tools (``tacgrasp.episodes.recover``).
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +21,7 @@ from tacgrasp.episodes.record import (
     FORMATS,
     JSON_MESSAGES,
     METADATA_NAME,
+    METADATA_RECOVERED,
     Episode,
     EpisodeHeader,
     StepRecord,
@@ -34,6 +35,12 @@ from tacgrasp.episodes.view_messages import ViewTopic, decode_image
 MAX_JSON_BYTES = 2_000_000
 """Longest message in JSON; those of a step with a thousand commands have 300 kB. Our choice."""
 
+MAX_LOST_CHARACTERS = 500
+"""Most that is shown of what a recovered file says of its damage. Our choice."""
+
+SHOWN_GAPS = 5
+"""Most gaps that are named. Our choice."""
+
 END_OF_TIME_S = 253_402_300_800.0
 """Start of the year 10000, in seconds since 1970: no calendar of Python's goes further."""
 
@@ -42,7 +49,8 @@ def read_episode(path: Path) -> Episode:
     """Read the episode in ``path``; clouds and numbers are bit for bit those that were recorded.
 
     A file that a killed run left is read as far as it goes: ``complete`` is then False, ``problem``
-    says why, and ``tacgrasp episodes recover`` makes a finished file of it.
+    says why, and ``tacgrasp episodes recover`` makes a finished file of it. A file that lost
+    records stays incomplete when it was recovered.
 
     Raises:
         EpisodeError: It does not exist, is empty, not MCAP, another program's MCAP, of another
@@ -101,13 +109,75 @@ def _episode(messages: dict[int, dict[str, bytes]], scan: Scan) -> Episode:
     if not 0 <= header.stamp.wall_s < END_OF_TIME_S:
         raise ValueError(f"EpisodeHeader.stamp.wall_s: {header.stamp.wall_s} is no time of a start")
     groups = [group for _, group in sorted(messages.items()) if Topic.STATE in group]
+    steps = tuple(_step(group, header.sensor) for group in groups)
+    numbers = iter(steps)
+    missing = missing_steps(
+        (sequence, next(numbers).index if Topic.STATE in group else None)
+        for sequence, group in sorted(messages.items())
+    )
+    problems = [text for text in (missing, scan.problem, *_lost_before(scan)) if text]
     return Episode(
         header=header,
-        steps=tuple(_step(group, header.sensor) for group in groups),
+        steps=steps,
         end=_parse(Topic.END, by_topic),
-        complete=scan.finished,
-        problem=scan.problem,
+        complete=scan.finished and not problems,
+        problem="; ".join(problems),
+        finished=scan.finished,
+        missing=missing,
     )
+
+
+def _lost_before(scan: Scan) -> Iterator[str]:
+    """What the files had lost that this one was recovered from, for people."""
+    for record in scan.records:
+        if isinstance(record, Metadata) and record.name == METADATA_RECOVERED:
+            lost = " ".join(record.metadata.get("lost", "").split())
+            if lost:
+                yield f"recovered from a damaged file: {lost:.{MAX_LOST_CHARACTERS}}"
+
+
+def missing_steps(records: Iterable[tuple[int, int | None]]) -> str:
+    """Missing steps, for people ('steps 3 to 4 and step 7 are missing'); empty when none is.
+
+    The records of a run are numbered without a gap, so that a gap is a record that was written and
+    got lost. Steps that a killed run never wrote leave none.
+
+    Args:
+        records: Sequence number of every record that was read, in ascending order, and the number
+            of its step; None for the header and the end.
+    """
+    names: list[str] = []
+    num_missing, expected, step = 0, None, 0
+    for sequence, index in records:
+        if expected is not None and sequence > expected:
+            num_lost = sequence - expected
+            num_missing += num_lost
+            names.append(_gap_text(num_lost, step, step + num_lost if index is None else index))
+        expected, step = sequence + 1, step if index is None else index + 1
+    if not names:
+        return ""
+    if len(names) > SHOWN_GAPS:
+        names = [*names[:SHOWN_GAPS], "others"]
+    text = " and ".join([", ".join(names[:-1]), names[-1]] if names[1:] else names)
+    return f"{text} {'is' if num_missing == 1 else 'are'} missing"
+
+
+def incomplete_text(episode: Episode, path: Path) -> str:
+    """Why the episode in ``path`` is incomplete, and what to do; empty when it is complete."""
+    if episode.complete:
+        return ""
+    advice = "what is lost can't be recovered"
+    if not episode.finished:
+        rest = "the rest" if episode.missing else "it"
+        advice = f"`tacgrasp episodes recover {path}` makes a finished file of {rest}"
+    return f"{episode.problem}; {advice}"
+
+
+def _gap_text(num_lost: int, first: int, behind: int) -> str:
+    """A gap of ``num_lost`` records, from step ``first`` to the one before step ``behind``."""
+    if num_lost != behind - first:  # a step that could not be written has a number, but no record
+        return f"{num_lost} {'record' if num_lost == 1 else 'records'} before step {behind}"
+    return f"step {first}" if num_lost == 1 else f"steps {first} to {behind - 1}"
 
 
 def _step(group: Mapping[str, bytes], sensor: SensorSpec) -> StepRecord:

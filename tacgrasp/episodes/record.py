@@ -47,6 +47,7 @@ FORMATS = ("tacgrasp-episode/1", FORMAT)
 """Formats that are read; format 1 has float32 millimetres and no channels for viewers."""
 
 METADATA_NAME = "tacgrasp_episode"
+METADATA_RECOVERED = "tacgrasp_recovered"
 
 TruthFacts = Mapping[str, bool | int | float | str | None]
 """Facts that only a simulator knows (slipped, bruised, held, ...), by name, units in the names."""
@@ -304,8 +305,11 @@ class Episode:
         header: Facts known at its start.
         steps: Its records in order, verification included.
         end: How it ended; None when the run was killed before its end.
-        complete: True when the file was closed properly, so that any MCAP reader opens it.
+        complete: True when the file was closed properly and no record was lost, before a recovery
+            either.
         problem: Damage of an incomplete file, for people; empty otherwise.
+        finished: True when the file was closed properly, so that any MCAP reader opens it.
+        missing: Steps that were written and are lost, for people; empty when none is known.
     """
 
     header: EpisodeHeader
@@ -313,3 +317,5 @@ class Episode:
     end: EpisodeEnd | None
     complete: bool
     problem: str = ""
+    finished: bool = True
+    missing: str = ""

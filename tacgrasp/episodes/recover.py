@@ -2,7 +2,8 @@
 
 Every whole record is copied, chunk by chunk, into a new file that gets the summary, index and
 footer that were never written. Nothing is invented: a run that was killed before its end has no
-``/end`` after recovery either. A metadata record ``tacgrasp_recovered`` names the damage.
+``/end`` after recovery either. A metadata record ``tacgrasp_recovered`` names the damage; what it
+names as lost keeps the episode incomplete for every reader.
 
 Not here: reading an unfinished episode, which needs no recovery (``tacgrasp.episodes.reader``).
 """
@@ -19,12 +20,10 @@ from mcap.writer import Writer
 from cltp.atomic_write import replacing
 from tacgrasp.episodes.errors import EpisodeError
 from tacgrasp.episodes.paths import refusal, sync_directory
-from tacgrasp.episodes.reader import check_format
-from tacgrasp.episodes.record import Topic
+from tacgrasp.episodes.reader import check_format, read_episode
+from tacgrasp.episodes.record import METADATA_RECOVERED, Topic
 from tacgrasp.episodes.scan import Scan, scan_file
 from tacgrasp.episodes.writer import start_mcap
-
-METADATA_RECOVERED = "tacgrasp_recovered"
 
 
 def recover(path: Path, out: Path | None = None) -> str:
@@ -42,20 +41,33 @@ def recover(path: Path, out: Path | None = None) -> str:
     records = list(scan.records)
     states = {r.id for r in records if isinstance(r, Channel) and r.topic == Topic.STATE}
     num_steps = sum(isinstance(r, Message) and r.channel_id in states for r in records)
+    missing = _missing(path)
     if scan.finished:
-        return f"{path} is finished already ({num_steps} steps); left as it is"
+        steps = "; ".join(filter(None, [f"{num_steps} steps", missing]))
+        return f"{path} is finished already ({steps}); left as it is"
     _refuse_while_recording(path)
     target = path if out is None else out
     if out is not None and out.exists():
         raise EpisodeError(f"{out} exists; episodes are never overwritten, give another name")
     try:
         with replacing(target) as part:
-            _write(part, scan, path.name)
+            _write(part, scan, path.name, missing)
             original = path if out is not None else _set_aside(path)
         sync_directory(target.parent)
     except OSError as error:
         raise EpisodeError(refusal(target, "write", error, flag="--out")) from None
-    return f"{target}: {num_steps} steps recovered; {path.name}: {scan.problem}; kept as {original}"
+    found = [f"{num_steps} steps recovered"]
+    if missing or scan.lost:
+        found.append(f"{missing or 'records are lost'}, so that it stays marked as incomplete")
+    return f"{target}: {'; '.join(found)}; {path.name}: {scan.problem}; kept as {original}"
+
+
+def _missing(path: Path) -> str:
+    """Steps that are missing; none is named of records that this version can't understand."""
+    try:
+        return read_episode(path).missing
+    except EpisodeError:  # they are copied as they are, and reading the copy says the same
+        return ""
 
 
 def _refuse_while_recording(path: Path) -> None:
@@ -70,7 +82,7 @@ def _refuse_while_recording(path: Path) -> None:
             return  # a disk without locks: a running recording can't be detected
 
 
-def _write(path: Path, scan: Scan, name: str) -> None:
+def _write(path: Path, scan: Scan, name: str, missing: str) -> None:
     with path.open("wb") as file:
         writer = start_mcap(file)
         schemas: dict[int, int] = {0: 0}  # 0 means 'no schema' in MCAP
@@ -79,7 +91,8 @@ def _write(path: Path, scan: Scan, name: str) -> None:
             for record in group:
                 _copy(writer, record, schemas, channels)
             writer.flush()
-        writer.add_metadata(METADATA_RECOVERED, {"from": name, "problem": scan.problem})
+        damage = {"from": name, "problem": scan.problem, "lost": scan.lost, "missing": missing}
+        writer.add_metadata(METADATA_RECOVERED, damage)
         writer.finish()
 
 

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import io
 import struct
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from zlib import crc32
@@ -52,11 +52,14 @@ class Scan:
             one chunk are one group.
         finished: True when footer and closing magic exist and everything between is whole.
         problem: Missing or damaged parts, for people; empty when finished.
+        lost: Those parts of ``problem`` that may have cost records, which no recovery brings back;
+            empty when finished, and for a file that a killed run left.
     """
 
     groups: tuple[tuple[McapRecord, ...], ...]
     finished: bool
     problem: str
+    lost: str = ""
 
     @property
     def records(self) -> Iterator[McapRecord]:
@@ -110,6 +113,7 @@ class _Scanner:
     def __init__(self, data: bytes) -> None:
         self._data = memoryview(data)
         self._problems: list[str] = []
+        self._losses: list[str] = []
         self._num_records = self._num_messages = self._num_bytes = 0
 
     def scan(self) -> Scan:
@@ -121,6 +125,9 @@ class _Scanner:
                 opcode, payload = self._next_record(data, offset)
             except _DamagedError as damage:
                 self._problems.append(f"{damage} at byte {offset} of {len(data)}")
+                if not in_summary and data[-len(MCAP0_MAGIC) :] == MCAP0_MAGIC:
+                    # It was closed once, so that this is no crash: what follows can't be found.
+                    self._losses.append(f"{self._problems[-1]}, and the rest was not read")
                 break
             start, offset = offset, offset + _PREFIX.size + len(payload)
             finished = opcode == Opcode.FOOTER
@@ -133,21 +140,22 @@ class _Scanner:
                 if group := self._group(opcode, payload):
                     groups.append(group)
             except _DamagedError as damage:  # its length is right: the next can still be read
-                self._problems.append(f"{damage} at byte {start} of {len(data)}, left out")
+                self._lose(f"{damage} at byte {start} of {len(data)}, left out")
         if finished and data[offset:] != MCAP0_MAGIC:
             self._problems.append("the closing bytes are missing or followed by others")
         finished = finished and not self._problems
-        return Scan(groups=tuple(groups), finished=finished, problem=self._problem())
+        problem, lost = _listed(self._problems), _listed(self._losses)
+        return Scan(groups=tuple(groups), finished=finished, problem=problem, lost=lost)
 
-    def _problem(self) -> str:
-        shown, more = self._problems[:SHOWN_PROBLEMS], len(self._problems) - SHOWN_PROBLEMS
-        return "; ".join([*shown, *([f"and {more} more"] if more > 0 else [])])
+    def _lose(self, problem: str) -> None:
+        self._problems.append(problem)
+        self._losses.append(problem)
 
     def _compare(self, payload: memoryview) -> None:
         """Compare the file's own count of its messages with the number that was read."""
         (written,) = struct.unpack_from("<Q", bytes(payload[:8]).ljust(8, b"\0"))
         if self._num_messages != written:
-            self._problems.append(f"{self._num_messages} messages were read, {written} written")
+            self._lose(f"{self._num_messages} messages were read, {written} written")
 
     def _next_record(self, data: memoryview, offset: int) -> tuple[int, memoryview]:
         self._num_records += 1
@@ -205,6 +213,11 @@ _READ_ERRORS = (
     struct.error,
 )
 """What the libraries raise for bytes that are no record."""
+
+
+def _listed(problems: Sequence[str]) -> str:
+    shown, more = problems[:SHOWN_PROBLEMS], len(problems) - SHOWN_PROBLEMS
+    return "; ".join([*shown, *([f"and {more} more"] if more > 0 else [])])
 
 
 def _stream(payload: memoryview) -> ReadDataStream:

@@ -136,6 +136,7 @@ def _command_text(command: Command) -> str:
 def _commands(episode: Episode, path: str) -> list[tuple[str, str]]:
     """Commands that go on from here."""
     rows = [("decide again", f"tacgrasp replay {path} --decide")]
-    if episode.header.seed is not None and not episode.header.dry_run:
+    repeatable = not episode.header.dry_run and not episode.missing
+    if episode.header.seed is not None and repeatable:
         rows.append(("move again", f"tacgrasp replay {path} --execute"))
     return [*rows, ("look at it", f"tacgrasp view {path}")]

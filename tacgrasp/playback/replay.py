@@ -139,10 +139,16 @@ def repeat(episode: Episode, rig: Rig, config: RunConfig) -> Generator[RepeatedA
         LimitError: The episode leaves the limits, nothing was sent for that action; or its contract
             is refused.
         RobotError: A device failed.
-        EpisodeError: The episode has no step, and so no start pose; or it was a dry run.
+        EpisodeError: The episode has no step, and so no start pose; or one of its steps is missing;
+            or it was a dry run.
     """
     if not episode.steps:
         raise EpisodeError("the episode has no step, so no start pose; nothing was moved")
+    if episode.missing:  # the next action would start where its step did not
+        raise EpisodeError(
+            f"{episode.missing}, so that the motion has a hole; nothing was moved. Look at what "
+            "was read with `tacgrasp replay` without --execute, or with --decide"
+        )
     if episode.header.dry_run:
         raise EpisodeError("the episode was a dry run, which moved nothing; nothing to repeat")
     is_success = episode.end is not None and episode.end.reason == EndReason.SUCCESS

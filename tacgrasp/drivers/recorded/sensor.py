@@ -136,6 +136,8 @@ def _episode_loaders(path: Path, sensor: SensorSpec) -> list[LoadCloud]:
         )
     if not episode.steps:
         raise TouchError(f"{path} holds no cloud: its run ended before the first one")
+    if not episode.complete:
+        log.warning("%s is incomplete: %s", path, episode.problem)
     return [partial(_unchanged, step.cloud) for step in episode.steps]
 
 

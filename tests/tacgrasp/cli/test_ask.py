@@ -231,7 +231,21 @@ def test_lines_of_input_are_answered_by_a_line_each(
     monkeypatch.setattr("sys.stdin", Typed("How deep is it?\n\nHow hard?\n", terminal=False))
     assert main(["ask", touch, "--json"]) == 0
     lines = capsys.readouterr().out.splitlines()
-    assert [json.loads(line)["value"] for line in lines] == [0.19, 0.19]
+    first, blank, last = map(json.loads, lines)
+    assert (first["value"], blank, last["value"]) == (0.19, None, 0.19)
+
+
+def test_a_blank_line_of_input_is_answered_by_a_blank_line(
+    talker: Writer,
+    touch: str,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    typed = "\nHow deep is it?\n  \nHow hard?\n\n"
+    monkeypatch.setattr("sys.stdin", Typed(typed, terminal=False))
+    assert main(["ask", touch]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert [bool(line) for line in lines] == [False, True, False, True, False]
 
 
 def test_a_line_that_cannot_be_answered_is_told_in_its_place(
@@ -256,6 +270,7 @@ def test_a_line_that_cannot_be_answered_is_told_in_its_place(
     ("argv", "typed", "expected", "code"),
     [
         ([], "", "there is no question", 2),
+        ([], "\n \n", "there is no question", 2),
         ([], "How deep?\nHallo Welt\n", "line 2: ask in plain English", 2),
         (["Hallo Welt"], "", "ask in plain English", 2),
         (["Deep?", "--limit", "1"], "", "--limit belongs to --goal", 2),

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from mcap.reader import make_reader
 
 from tacgrasp.__main__ import COMMANDS, main, usage
 from tacgrasp.base import package_check
@@ -221,6 +222,40 @@ def test_a_damaged_episode_is_not_called_reproduced_exactly(
     printed = capsys.readouterr().out
     assert "0 differ; only those that could be read were decided again" in printed
     assert "exactly" not in printed
+
+
+def test_a_step_that_damage_cost_is_told_after_recovery_and_the_motion_is_not_repeated(
+    tmp_path: Path, capsys: Capture
+) -> None:
+    assert main(["run", "--policy", "rules", "--seed", "1", "--record", str(tmp_path)]) == 0
+    (path,) = tmp_path.glob("*.mcap")
+    with path.open("rb") as file:
+        summary = make_reader(file).get_summary()
+    assert summary is not None
+    chunk = summary.chunk_indexes[3]  # the first is the header's
+    data = bytearray(path.read_bytes())
+    data[chunk.chunk_start_offset + chunk.chunk_length // 2] ^= 0xFF
+    path.write_bytes(data)
+    capsys.readouterr()
+    for _ in range(2):
+        assert main(["episodes", "info", str(path)]) == 0
+        assert "no: step 2 is missing; " in capsys.readouterr().out
+        assert main(["why", str(path)]) == 1
+        printed = " ".join(capsys.readouterr().out.split())
+        assert printed.startswith("incomplete step 2 is missing; ")
+        assert "trouble none in what was read" in printed
+        assert main(["replay", str(path), "--decide"]) == 0
+        printed = capsys.readouterr().out
+        assert printed.startswith("incomplete: step 2 is missing; ")
+        assert "only those that could be read" in printed and "exactly" not in printed
+        assert main(["replay", str(path), "--execute"]) == 2
+        captured = capsys.readouterr()
+        expected = "step 2 is missing, so that the motion has a hole; nothing was moved"
+        assert expected in captured.err and "mm from the recorded pose" not in captured.out
+        assert main(["episodes", "recover", str(path)]) == 0
+        assert "step 2 is missing" in capsys.readouterr().out
+    assert main(["episodes", "ls", str(tmp_path)]) == 0
+    assert "success, incomplete" in capsys.readouterr().out
 
 
 def test_the_paper_demo_prints_two_lines_a_step_the_end_and_the_truth(

@@ -140,6 +140,16 @@ def test_a_long_title_ends_within_the_picture(tmp_path: Path) -> None:
     assert len(figure.texts[0].get_text()) <= TITLE_LENGTH
 
 
+def test_the_picture_names_the_steps_that_are_missing(tmp_path: Path) -> None:
+    record(tmp_path / "e.mcap", [step_record(0), step_record(2)])
+    whole = read_episode(tmp_path / "e.mcap")
+    lossy = replace(whole, complete=False, missing="step 1 is missing", problem="x")
+    for episode, expected in ((whole, False), (lossy, True)):
+        title, subtitle = (text.get_text() for text in draw_episode(episode, "e.mcap").texts[:2])
+        assert ("(incomplete)" in title) == expected
+        assert ("(step 1 is missing)" in subtitle) == expected
+
+
 def test_the_picture_is_written_as_png(tmp_path: Path) -> None:
     record(tmp_path / "e.mcap", [step_record(0)])
     plot_episode(tmp_path / "e.mcap", tmp_path / "e.png")

@@ -11,6 +11,8 @@ from mcap.reader import make_reader
 from mcap.writer import Writer
 
 from tacgrasp.episodes import EpisodeError, EpisodeWriter, StepRecord, read_episode
+from tacgrasp.episodes.codec import to_json
+from tacgrasp.episodes.record import FORMAT
 from tacgrasp.episodes.recover import recover
 from tests.fakes.episode_samples import header, record, same, step_record
 
@@ -107,8 +109,96 @@ def test_a_damaged_chunk_costs_its_own_step_alone(recorded: Recorded, tmp_path: 
     episode = read_episode(path)
     assert [t.index for t in episode.steps] == [0, 2, 3]
     assert not episode.complete and "left out" in episode.problem
-    assert ": 3 steps recovered; " in recover(path)
-    assert read_episode(path).complete and stock_count(path) == 3
+    assert ": 3 steps recovered; step 1 is missing, so that it stays" in recover(path)
+    assert stock_count(path) == 3
+
+
+def damage(data: bytes, *places: int) -> bytes:
+    changed = bytearray(data)
+    for place in places:
+        changed[place] ^= 0xFF
+    return bytes(changed)
+
+
+def middle(sizes: Sequence[int], step: int) -> int:
+    """Place of a byte in the chunk of a step; of the end for the number after the last step."""
+    return sizes[step] + 300 if step + 1 == len(sizes) else (sizes[step] + sizes[step + 1]) // 2
+
+
+@pytest.mark.parametrize(
+    ("lost", "missing"),
+    [
+        ([0], "step 0 is missing"),
+        ([1, 2], "steps 1 to 2 are missing"),
+        ([0, 2], "step 0 and step 2 are missing"),
+        ([3], "step 3 is missing"),  # known by the end behind it
+        ([2, 3], "steps 2 to 3 are missing"),
+    ],
+)
+def test_what_a_damaged_file_lost_is_told_after_recovery_too(
+    recorded: Recorded, tmp_path: Path, lost: list[int], missing: str
+) -> None:
+    path = tmp_path / "e.mcap"
+    path.write_bytes(damage(recorded[0], *(middle(recorded[1], step) for step in lost)))
+    assert read_episode(path).missing == missing
+    recover(path)
+    recovered = path.read_bytes()
+    assert f"finished already ({4 - len(lost)} steps; {missing}); left as it is" in recover(path)
+    episode = read_episode(path)
+    assert episode.finished and not episode.complete
+    assert [step.index for step in episode.steps] == [i for i in range(4) if i not in lost]
+    assert episode.missing == missing and episode.problem.startswith(f"{missing}; recovered from ")
+    with path.open("rb") as file:
+        names = {m.name: m.metadata for m in make_reader(file).iter_metadata()}
+    assert names["tacgrasp_recovered"]["missing"] == missing
+    assert "left out" in names["tacgrasp_recovered"]["lost"]
+    path.write_bytes(recovered[:-100])  # damaged and recovered once more
+    recover(path)
+    assert read_episode(path).missing == missing and "left out" in read_episode(path).problem
+
+
+def test_a_loss_that_no_number_tells_is_told_after_recovery_too(
+    recorded: Recorded, tmp_path: Path
+) -> None:
+    data, sizes = recorded
+    path = tmp_path / "e.mcap"
+    assert len(sizes) == 5
+    path.write_bytes(damage(data, middle(sizes, 3), middle(sizes, 4)))  # last step and end
+    recover(path)
+    episode = read_episode(path)
+    assert (len(episode.steps), episode.end, episode.missing) == (3, None, "")
+    assert not episode.complete and "recovered from a damaged file: " in episode.problem
+
+
+def test_the_rest_behind_a_damaged_length_is_lost_unless_the_run_was_killed(
+    recorded: Recorded, tmp_path: Path
+) -> None:
+    data, sizes = recorded
+    path = tmp_path / "e.mcap"
+    long = bytearray(data)
+    long[sizes[2] + 8] = 0x7F  # the highest byte of the length of step 2's chunk
+    for content, complete in ((bytes(long), False), (data[: sizes[2] + 100], True)):
+        path.write_bytes(content)
+        recover(path)
+        assert len(read_episode(path).steps) == 2
+        assert read_episode(path).complete == complete, read_episode(path).problem
+    path.write_bytes(long)
+    recover(path)
+    assert "the rest was not read" in read_episode(path).problem
+
+
+def test_what_a_recovered_file_says_of_its_damage_stays_one_short_line(tmp_path: Path) -> None:
+    path = tmp_path / "e.mcap"
+    with path.open("wb") as file:
+        writer = Writer(file)
+        writer.start()
+        writer.add_metadata("tacgrasp_episode", {"format": FORMAT})
+        writer.add_metadata("tacgrasp_recovered", {"lost": "a\nb " + 5000 * "x"})
+        channel = writer.register_channel("/episode", "json", 0)
+        writer.add_message(channel, 0, json.dumps(to_json(header())).encode(), 0)
+        writer.finish()
+    problem = read_episode(path).problem
+    assert problem.startswith("recovered from a damaged file: a b xx") and len(problem) < 600
 
 
 def test_zeros_after_a_power_cut_are_no_record(recorded: Recorded, tmp_path: Path) -> None:

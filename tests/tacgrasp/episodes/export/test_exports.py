@@ -31,11 +31,19 @@ STEPS = [
 @pytest.fixture
 def episode(tmp_path: Path) -> Path:
     path = tmp_path / "e.mcap"
-    with EpisodeWriter(path, replace(header(), contract=contract(0.95, 1.9, 2.4))) as writer:
+    write(path)
+    return path
+
+
+def write(path: Path, seed: int = 7) -> list[int]:
+    """Record ``STEPS``; returns the size of the file before each step [bytes]."""
+    sizes = []
+    with EpisodeWriter(path, replace(header(seed), contract=contract(0.95, 1.9, 2.4))) as writer:
         for step in STEPS:
+            sizes.append(path.stat().st_size)
             writer.write_step(step)
         writer.finish(end())
-    return path
+    return sizes
 
 
 def exported(argv: list[str], out: Path) -> Path:
@@ -71,7 +79,9 @@ def test_header_and_end_are_in_the_table_s_metadata(episode: Path, tmp_path: Pat
 def test_a_lerobot_data_set_has_the_files_and_counts_of_version_3(
     episode: Path, tmp_path: Path
 ) -> None:
-    out = exported([str(episode), str(episode), "--to", "lerobot"], tmp_path / "set")
+    other = tmp_path / "other.mcap"
+    write(other, seed=8)
+    out = exported([str(episode), str(other), "--to", "lerobot"], tmp_path / "set")
     info = json.loads((out / "meta/info.json").read_text())
     assert info["codebase_version"] == "v3.0"
     assert (info["total_episodes"], info["total_frames"], info["total_tasks"]) == (2, 6, 1)
@@ -162,6 +172,47 @@ def test_a_data_set_that_can_not_be_written_leaves_nothing(tmp_path: Path) -> No
         main(["episodes", "export", str(tmp_path / "a.mcap"), "--to", "lerobot", "--out", str(out)])
         == 2
     )
+
+
+@pytest.mark.parametrize("kind", ["parquet", "lerobot"])
+def test_an_export_tells_which_step_is_missing_and_writes_the_rest(
+    kind: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "e.mcap"
+    sizes = write(path)
+    assert main(["episodes", "export", str(path), "--to", kind, "--out", f"{path}.{kind}"]) == 0
+    assert capsys.readouterr().err == ""
+    data = bytearray(path.read_bytes())
+    data[(sizes[1] + sizes[2]) // 2] ^= 0xFF
+    path.write_bytes(data)
+    damaged = ["episodes", "export", str(path), "--to", kind, "--out", f"{path}.2.{kind}"]
+    assert main(damaged) == 0
+    error = capsys.readouterr().err
+    assert error.startswith(f"tacgrasp: {path} is incomplete: step 1 is missing; ")
+    assert "makes a finished file of the rest" in error and error.count("\n") == 1
+    assert main(["episodes", "recover", str(path)]) == 0
+    assert main([*damaged[:-1], f"{path}.3.{kind}"]) == 0
+    error = capsys.readouterr().err
+    assert "step 1 is missing; recovered from a damaged file: " in error
+    assert error.endswith("what is lost can't be recovered\n")
+
+
+@pytest.mark.parametrize("copied", [False, True], ids=["named twice", "a copy"])
+def test_a_data_set_holds_a_run_once(
+    copied: bool, episode: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    again, other = episode, tmp_path / "other.mcap"
+    write(other, seed=8)
+    if copied:
+        again = tmp_path / "copy.mcap"
+        again.write_bytes(episode.read_bytes())
+    named = [str(other), str(episode), str(again)]
+    out = tmp_path / "set"
+    assert main(["episodes", "export", *named, "--to", "lerobot", "--out", str(out)]) == 2
+    error = capsys.readouterr().err
+    expected = f"{episode} and {again} are of the same run" if copied else f"{again} is named twice"
+    assert f"{expected}; a data set holds a run once" in error
+    assert not out.exists()
 
 
 @pytest.mark.parametrize("kind", ["parquet", "lerobot", "rrd"])
