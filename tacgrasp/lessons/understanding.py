@@ -238,9 +238,8 @@ def _in_parts(writer: QueryWriter, question: str) -> ReadQuestion | None:
             if part.strip()
         ]
         told = [part for part in parts if part is not None and joinable(part.meaning)]
-        if len(told) < 2 or min(part.confidence for part in told) <= (
-            best.confidence if best else 0
-        ):
+        sure = min((part.confidence for part in told), default=0.0)
+        if len(told) < 2 or (best is not None and sure <= best.confidence):
             continue
         meaning = together([one for part in told for one in joinable(part.meaning)])
         try:
