@@ -252,7 +252,8 @@ def test_cltp_learns_from_a_further_set_and_says_so(
     places = ["--weights", str(folder), "--data", str(data), "--results", str(results)]
     assert main(["eval", "zero-shot", *places, "--threads", "1"]) == 0
     assert list(results.glob("zero_shot-cltp-tiny+also-contact-s0.json"))
-    assert "other data, seed or sizes" in complaint(argv, capsys)
+    alone, both = (ContactDataset(data, also=also).checksum()[:8] for also in ((), (other,)))
+    assert f"training: data {both} instead of {alone}; delete it" in complaint(argv, capsys)
     assert "unknown arguments: --also" in complaint(
         ["train", "tvl", *argv[2:], "--also", str(other)], capsys
     )
