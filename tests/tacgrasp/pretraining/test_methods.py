@@ -411,7 +411,7 @@ def test_wrong_use_of_eval_is_told_in_one_line(
     [
         (["cltp", "--preset", "giant"], "unknown preset 'giant'"),
         (["tvl", "--no-image"], "unknown arguments: --no-image"),
-        (["point-mae", "--steps", "0"], "positive steps"),
+        (["point-mae", "--steps", "0"], "--steps must be at least 1, got 0"),
         (["all", "--steps", "5"], "unknown arguments: --steps 5"),
         (["tvl", "--preset", "tiny"], "tvl needs an encoder of image"),
     ],
