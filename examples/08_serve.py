@@ -19,6 +19,8 @@ from tacgrasp.serving.server import PolicyServer, ServerSettings
 from tacgrasp.serving.wire import pack, unpack
 
 policy = sys.argv[1] if len(sys.argv) > 1 else "rules"
+if policy not in ("rules", "llm"):
+    sys.exit(f"expected rules or llm, got {policy}")
 config, sources = load("strawberry")
 config = config.model_copy(update={"policy": policy})
 server = PolicyServer(policy_maker(config), config, sources, ServerSettings(port=0))

@@ -53,25 +53,25 @@ for name, value in {"contacts": 460, "ours": 4000, "steps": 400, "joint-steps": 
     parser.add_argument(f"--{name}", type=int, default=value)
 flags = parser.parse_args()
 
-folder, labels, background = Path("measured"), Path("labels.csv"), []
+folder, labels, more = Path("measured"), Path("labels.csv"), ["--held-out", 0.2]
+if folder.exists():
+    sys.exit("measured exists, of an earlier run; delete measured, mine, trained and weights")
 folder.mkdir()
 made = ["data", "generate", "--set", "full", "--workers", 1]
 tacgrasp(*made, "--contacts", 2 * flags.contacts, "--seed", 7, "--out", "simulated")
 felt = felt_by_another_sensor(Path("simulated"), folder, np.random.default_rng(0))
 rows = [row for row, _ in zip(felt, range(flags.contacts), strict=False)]
 if flags.frames is not None:
-    background = ["--background", flags.frames / "background.png"]
-    for number, frame in enumerate(sorted(flags.frames.glob("ball*.png"))):
+    more += ["--background", flags.frames / "background.png"]
+    for number, frame in enumerate(sorted(flags.frames.glob("ball*.png")), 10**6):
         shutil.copy(frame, folder)
-        ball = {"shape": "sphere", "texture": "smooth", "series": 10**6 + number}
-        rows.append({"file": frame.name, **ball})
+        rows.append({"file": frame.name, "shape": "sphere", "texture": "smooth", "series": number})
 with labels.open("w", newline="") as file:
     writer = csv.DictWriter(file, ("file", "series", *NAMES))
     writer.writeheader()
     writer.writerows(rows)
 
-mine = ["--labels", labels, "--out", "mine", "--held-out", 0.2, *background]
-tacgrasp("data", "import", folder, *mine)
+tacgrasp("data", "import", folder, "--labels", labels, "--out", "mine", *more)
 tacgrasp(*made, "--contacts", flags.ours, "--out", "ours")
 both, start = ["--data", "ours", "--also", "mine"], ["--start", "shipped"]
 tacgrasp("train", "cltp", *both, *start, "--out", "trained", "--steps", flags.steps)

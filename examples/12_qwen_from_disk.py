@@ -13,6 +13,7 @@ from pathlib import Path
 import torch
 from transformers import PreTrainedTokenizerFast, Qwen2Config, Qwen2ForCausalLM
 
+from cltp import TouchError
 from cltp.checkpoints.tac3d_llm import load_encoder
 from cltp.llm.causal_lm import load_language
 from cltp.llm.generation import Talker
@@ -46,7 +47,10 @@ def tiny_qwen(folder: Path) -> Path:
 torch.manual_seed(0)
 torch.set_num_threads(1)
 folder = Path(sys.argv[1]) if len(sys.argv) > 1 else tiny_qwen(Path("tiny_qwen"))
-language = load_language(folder)  # strict: every weight there, of the right shape, finite
+try:
+    language = load_language(folder)  # strict: every weight there, of the right shape, finite
+except TouchError as error:
+    sys.exit(str(error))
 encoder, heads = load_encoder(default_weights() / "encoder")
 model = Tac3dLlm(encoder, heads, Projector(encoder.config.dim, language.dim), language)
 print(f"{type(language.lm).__name__} of width {language.dim} behind {model.num_touch} touch tokens")

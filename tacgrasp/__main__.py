@@ -45,6 +45,9 @@ FILE_ERRORS = (
 )
 """Errors of the operating system that are no bugs of ours: a disk or folder refused a file."""
 
+FULL_DISK = (errno.EDQUOT, errno.ENOSPC)
+"""Those of them that end where space is freed."""
+
 STOPPED = 130
 """Exit code of a command that Ctrl-C ended."""
 
@@ -125,7 +128,8 @@ def _dispatch(command: str, argv: Sequence[str]) -> int:
         code = _exit_code(error)
         if isinstance(error, OSError) and error.errno in FILE_ERRORS:
             place = f"{error.filename} can't be used: " if error.filename else ""
-            _print_error(f"{place}{error.strerror}; free space, or name another file or folder")
+            remedy = "free space, or name" if error.errno in FULL_DISK else "name"
+            _print_error(f"{place}{error.strerror}; {remedy} another file or folder")
             return 2
         if code is None:  # a bug: show where
             import traceback

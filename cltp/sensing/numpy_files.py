@@ -51,8 +51,8 @@ def read_npz(data: bytes) -> NDArray[np.float64]:
     """The one array of a .npz file, or the one named ``points_mm`` or ``height_mm``.
 
     Raises:
-        TouchError: Not a whole .npz file, none or several arrays, an encrypted one, or as
-            ``read_npy``.
+        TouchError: Not a whole .npz file, none or several arrays, an encrypted one, points that are
+            not (N, 3), or as ``read_npy``.
     """
     if data.count(_ENTRY) > _MAX_ARRAYS:
         raise TouchError(f"expected one array, the .npz file has more than {_MAX_ARRAYS}")
@@ -91,6 +91,11 @@ def _member(archive: zipfile.ZipFile) -> bytes:
     with archive.open(info) as file:
         head = file.read(_MAX_HEADER_BYTES)
         shape, _, dtype, _ = _header(head)
+        if candidates[0].startswith("points") and (len(shape) != 2 or shape[1] != 3):
+            raise TouchError(
+                f"the array {candidates[0]} is a cloud by its name, and a cloud needs shape "
+                f"(N, 3), got {shape}"
+            )
         return head + file.read(_count(shape) * dtype.itemsize)
 
 

@@ -32,6 +32,9 @@ SURFACE_ROWS = 75
 MAX_FILE_BYTES = 64_000_000
 """Most bytes of a file, which is read whole: 8 million numbers of 8 bytes. Our choice."""
 
+LEAST_COLUMNS = 8
+"""An array of fewer columns, which is no height map, may be meant as a cloud."""
+
 METRES_MM = 2e-3
 """A map whose whole relief is below this is in metres: a gel's own noise is 10 µm. Our choice."""
 
@@ -178,9 +181,11 @@ def _cloud_of(array: NDArray[np.float64], sensor: SensorSpec) -> TactileCloud:
     rows, columns = array.shape
     expected = sensor.columns / sensor.rows
     if rows == 0 or columns == 0 or abs(columns / rows / expected - 1) > ASPECT_TOLERANCE:
+        or_cloud = "; a cloud needs shape (N, 3)" if columns < LEAST_COLUMNS else ""
         raise TouchError(
             f"a height map of {rows} × {columns} doesn't fit {sensor.name}, whose sensing area is "
             f"{sensor.rows} × {sensor.columns} px (rows × columns, or any map of that aspect)"
+            f"{or_cloud}"
         )
     if np.isfinite(array).all():
         relief, highest = float(np.ptp(array)), float(np.abs(array).max())

@@ -114,8 +114,11 @@ class Schedule:
     largest_gradient: float = 1.0
 
     def __post_init__(self) -> None:
-        if min(self.steps, self.batch_size) < 1 or not self.learning_rate > 0:
-            raise TouchError(f"a schedule needs positive steps, batch size and rate, got {self}")
+        for name in ("steps", "batch_size"):
+            if getattr(self, name) < 1:
+                raise TouchError(f"{name} must be at least 1, got {getattr(self, name)}")
+        if not self.learning_rate > 0:
+            raise TouchError(f"learning_rate must be above 0, got {self.learning_rate}")
 
     def rate(self, step: int) -> float:
         """Learning rate in step ``step``, counted from 0."""

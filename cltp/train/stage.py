@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import io
 import json
+import re
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -27,6 +28,16 @@ from cltp.errors import TouchError
 from cltp.train.curves import CurveFile, plot_curves
 from cltp.train.distributed import Workers
 from cltp.train.recipes import Schedule
+
+_CONTENT = {"identity", "step", "model", "optimiser", "rng", "means"}
+"""What a checkpoint holds."""
+
+_FIELD = re.compile(r"(\w+)=([^=(,)]+|\([^()]*\))(?=[,)])|([a-z_]+) ([\d.e-]+)\b")
+"""A field in the text of a dataclass and its value, a number or a flat tuple; or, behind it, a name
+and a number."""
+
+_LONGEST = 24
+_DIGEST = re.compile(r"[0-9a-f]{12,}")
 
 
 class ProgressReport(Protocol):
@@ -201,13 +212,19 @@ class Stage:
             return 0
         try:
             content = torch.load(self._path, map_location="cpu", weights_only=True)
-        except Exception as error:  # torch raises errors of many kinds for a damaged file
+        except OSError as error:
             raise TouchError(
-                f"checkpoint {self._path} can't be read; delete it: {error}"
+                f"checkpoint {self._path} can't be read: {error.strerror or 'unknown error'}; make "
+                "it readable, or train into another folder"
             ) from error
+        except Exception as error:  # torch raises errors of many kinds, with words for programmers
+            raise self._damaged() from error
+        if not isinstance(content, dict) or not content.keys() >= _CONTENT:
+            raise self._damaged()
         if content["identity"] != self._identity:
+            differing = differences(content["identity"], self._identity)
             raise TouchError(
-                f"checkpoint {self._path} is of a training with other data, seed or sizes; delete "
+                f"checkpoint {self._path} is of another training: {', '.join(differing)}; delete "
                 "it to start afresh, or train into another folder"
             )
         self.model.load_state_dict(content["model"])
@@ -215,3 +232,53 @@ class Stage:
         torch.set_rng_state(content["rng"])
         self._means = content["means"]
         return int(content["step"])
+
+    def _damaged(self) -> TouchError:
+        return TouchError(
+            f"checkpoint {self._path} is damaged; delete it, and the same command starts the stage "
+            f"{self.name} afresh"
+        )
+
+
+def differences(before: str, now: str) -> list[str]:
+    """Name what differs between the identities of two stages, with its old and its new value.
+
+    Many values are the text of a dataclass (``Schedule(steps=3, batch_size=8, ...)``), whose fields
+    are compared singly.
+
+    Args:
+        before: Identity of the training that was begun.
+        now: Identity of the one that was asked for.
+
+    Returns:
+        Such as ``steps 400 instead of 300``, one entry for each value; the old one comes first.
+    """
+    old, new = (dict(_values(json.loads(identity))) for identity in (before, now))
+    return [
+        f"{key.rpartition('.')[2]} {_short(old.get(key))} instead of {_short(new.get(key))}"
+        for key in sorted({*old, *new})
+        if old.get(key) != new.get(key)
+    ]
+
+
+def _values(content: dict[str, Any], above: str = "") -> Iterator[tuple[str, Any]]:
+    """Every single value, by the names of what it lies in."""
+    for name, value in content.items():
+        key = f"{above}{name}"
+        if isinstance(value, dict):
+            yield from _values(value, f"{key}.")
+        elif isinstance(value, str):
+            for name_in, text, name_behind, number in _FIELD.findall(value):
+                yield f"{key}.{name_in or name_behind}", text.strip("'") or number
+            yield key, " ".join(re.findall(r"[\w.-]+", _FIELD.sub("", value)))
+        else:
+            yield key, value
+
+
+def _short(value: Any) -> str:
+    if value is None:
+        return "none"
+    text = f"{value:.6g}" if isinstance(value, float) else str(value)
+    if _DIGEST.fullmatch(text):
+        return text[:8]
+    return text if len(text) <= _LONGEST else f"{text[:_LONGEST]}…"

@@ -19,11 +19,13 @@ from cltp.train.recipes import (
     Schedule,
 )
 from tacgrasp.base.errors import UsageError
+from tacgrasp.base.folders import check_folder
 from tacgrasp.cli.flags import parse, subcommand
 from tacgrasp.training.requests import (
     TrainAllRequest,
     TrainLlmRequest,
     also_fraction,
+    check_at_least_1,
     check_mixture,
 )
 
@@ -92,6 +94,10 @@ class PretrainingFlags(MethodsFlags):
     steps: int | None = None
     batch_size: int = CLTP_SCHEDULE.batch_size
 
+    def __post_init__(self) -> None:
+        check_at_least_1("--steps", self.steps)
+        check_at_least_1("--batch-size", self.batch_size)
+
     def schedule(self, usual: Schedule = CLTP_SCHEDULE) -> Schedule:
         steps = usual.steps if self.steps is None else self.steps
         return replace(usual, steps=steps, batch_size=self.batch_size)
@@ -151,7 +157,10 @@ class TrainCltpFlags(TrainMethodFlags):
     learning_rate: float | None = None
 
     def __post_init__(self) -> None:
+        super().__post_init__()
         check_mixture(self.also, self.also_fraction)
+        if self.learning_rate is not None and not self.learning_rate > 0:
+            raise UsageError(f"--learning-rate must be above 0, got {self.learning_rate:g}")
 
     def train_in(self, run: PretrainingRun, stage: str) -> None:
         from tacgrasp.policy_factory import named_weights
@@ -397,9 +406,9 @@ def main(argv: Sequence[str]) -> int:
     if stage is None:
         return 0
     flags = parse(STAGES[stage][0], rest, prog=f"tacgrasp train {stage}")
-    threads = getattr(flags, "threads", None)
-    if threads is not None and threads < 1:
-        raise UsageError(f"--threads must be at least 1, got {threads}")
+    check_at_least_1("--threads", getattr(flags, "threads", None))
+    if hasattr(flags, "out"):
+        check_folder(flags.out, "--out")
     command = shlex.join(["tacgrasp", "train", stage, *rest])
     if isinstance(flags, MethodsFlags):
         flags.train(stage, command)

@@ -23,6 +23,7 @@ from cltp.data.dataset_writer import DatasetWriter, PackedShard, shard_stem
 from cltp.errors import TouchError
 from cltp.torch_threads import torch_threads
 from tacgrasp.base.errors import UsageError
+from tacgrasp.base.folders import check_folder
 from tacgrasp.base.worker_pool import num_cores, worker_pool
 from tacgrasp.console import count_progress
 from tacgrasp.datasets.card import write_card
@@ -180,6 +181,7 @@ def _open(out: Path, about: Mapping[str, str]) -> None:
         UsageError: The folder was made by another command.
         TouchError: The folder is not a data set of this version, or can't be written.
     """
+    check_folder(out, "the data set")
     _check_own(out)
     try:
         DatasetWriter(out, about=about)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import errno
 import os
 import re
+import tempfile
 from contextlib import suppress
 from datetime import UTC, datetime
 from pathlib import Path
@@ -28,10 +29,11 @@ def make_record_directory(path: Path) -> Path:
 
 
 def check_record_directory(path: Path) -> None:
-    """Check that episodes can be written into the directory ``path``; nothing is created.
+    """Check that episodes can be written into the directory ``path``; nothing is left behind.
 
     Raises:
-        EpisodeError: It, or the directory that it would be made in, is none or is read-only.
+        EpisodeError: It, or the directory that it would be made in, is none, is read-only, or takes
+            no new entries, as ``/proc``.
     """
     nearest = next(each for each in (path, *path.absolute().parents) if each.exists())
     if not nearest.is_dir():
@@ -40,6 +42,11 @@ def check_record_directory(path: Path) -> None:
         raise EpisodeError(
             f"{nearest} is read-only; make it writable or give another directory with --record"
         )
+    try:  # the file system itself may refuse, whatever the permissions say
+        Path(tempfile.mkdtemp(prefix=".tacgrasp-", dir=nearest)).rmdir()
+    except OSError as error:
+        above = [each for each in (path, *path.absolute().parents) if not each.exists()]
+        raise EpisodeError(refusal(above[-1] if above else path, "create", error)) from None
 
 
 def episode_path(directory: Path, task: str, stamp: Stamp, seed: int | None) -> Path:
@@ -69,7 +76,7 @@ def refusal(path: Path, operation: str, error: OSError, *, flag: str = "--record
         error: The refusal.
         flag: Flag that names another place.
     """
-    reason, remedy = {
+    known = {
         errno.ENOENT: ("its directory does not exist", f"create it or give another with {flag}"),
         errno.ENOTDIR: ("its parent is not a directory", f"give another directory with {flag}"),
         errno.EEXIST: ("the file exists", "episodes are never overwritten; give another name"),
@@ -78,5 +85,9 @@ def refusal(path: Path, operation: str, error: OSError, *, flag: str = "--record
         errno.EFBIG: ("the file would exceed the size limit", "raise it (ulimit -f)"),
         errno.EROFS: ("the file system is read-only", f"give another directory with {flag}"),
         errno.EACCES: ("permission denied", "make its directory writable or give another"),
-    }.get(error.errno or 0, (error.strerror or str(error), "check the disk"))
+    }
+    if error.errno == errno.ENOENT and path.absolute().parent.exists():  # as of /proc
+        known = {errno.ENOENT: (os.strerror(errno.ENOENT), f"give another directory with {flag}")}
+    default = (error.strerror or str(error), "check the disk")
+    reason, remedy = known.get(error.errno or 0, default)
     return f"can't {operation} {path}: {reason}; {remedy}"

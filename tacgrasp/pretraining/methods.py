@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import json
 import os
-import shutil
 from collections.abc import Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 from dataclasses import asdict, dataclass, replace
@@ -21,7 +20,7 @@ import torch
 from rich.console import Console
 from transformers.utils.logging import disable_progress_bar
 
-from cltp.atomic_write import write_atomically
+from cltp.atomic_write import copy_folder, write_atomically
 from cltp.checkpoints.manifest import manifest_digest
 from cltp.data.dataset import ContactDataset
 from cltp.encoder.encoder import PRESETS
@@ -151,6 +150,7 @@ def pretrain(
     Raises:
         UsageError: An unknown method or preset.
         TouchError: Data, towers or a checkpoint can't be used.
+        OSError: A file can't be written.
     """
     if method not in METHODS:
         raise UsageError(f"unknown method {method!r}; known: {', '.join(METHODS)}")
@@ -169,8 +169,10 @@ def pretrain(
         also=() if also is None else (also,),
         also_fraction=also_fraction,
     )
-    if start is not None and not clip.exists():
-        shutil.copytree(start / "clip", clip)
+    if start is not None:
+        if run.workers.is_first and not clip.exists():
+            copy_folder(start / "clip", clip)
+        run.workers.wait()
     if method in ALIGNED_METHODS:
         train_cltp(
             training,

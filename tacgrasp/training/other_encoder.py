@@ -8,11 +8,12 @@ differ in the encoder alone.
 from __future__ import annotations
 
 import json
-import shutil
+from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
-from cltp.atomic_write import write_atomically
+from cltp.atomic_write import copy_files, copy_folder, new_folder, write_atomically
 from cltp.checkpoints.frozen import FORMAT, load_frozen
 from cltp.checkpoints.manifest import manifest_digest, write_manifest
 from cltp.checkpoints.tac3d_llm import load_encoder, save_encoder
@@ -40,6 +41,7 @@ def take_other_encoder(source: Path, run: TrainingRun, heads_steps: int) -> None
     Raises:
         UsageError: The folder holds another encoder already, or the encoder sees images.
         TouchError: The encoder can't be read.
+        OSError: A file can't be written.
     """
     out = run.out
     origin = manifest_digest(source / "encoder")
@@ -51,13 +53,10 @@ def take_other_encoder(source: Path, run: TrainingRun, heads_steps: int) -> None
     trained = read_config(source / ABOUT) if (source / ABOUT).is_file() else {}
     method = str(trained.get("method", config.get("method", "cltp")))
     about: dict[str, object] = {"manifest": origin, "method": method}
-    part, is_first = out / "encoder.part", run.workers.is_first
-    if is_first:
-        shutil.rmtree(part, ignore_errors=True)
+    write: Callable[[Path], None]
     if config.get("format") != FORMAT:
         load_encoder(source / "encoder")
-        if is_first:
-            shutil.copytree(source / "encoder", part)
+        write = partial(copy_files, source / "encoder")
     else:
         frozen = load_frozen(source / "encoder")
         if frozen.sees_images:
@@ -68,14 +67,14 @@ def take_other_encoder(source: Path, run: TrainingRun, heads_steps: int) -> None
         schedule = replace(HEADS_SCHEDULE, steps=heads_steps)
         heads = train_heads(run, frozen.encoder, schedule, LEARNING_NOISE)
         about["heads"] = f"fitted in {schedule.steps} steps of {schedule.batch_size}"
-        if is_first:
-            save_encoder(part, frozen.encoder, heads)
-    if is_first:
+        write = partial(save_encoder, encoder=frozen.encoder, heads=heads)
+    if run.workers.is_first:
         if (source / "clip").is_dir() and not (out / "clip").exists():
-            shutil.copytree(source / "clip", out / "clip")
-        write_atomically(part / SOURCE, json.dumps(about, indent=2) + "\n")
-        write_manifest(part)
-        part.rename(out / "encoder")
+            copy_folder(source / "clip", out / "clip")
+        with new_folder(out / "encoder") as part:
+            write(part)
+            write_atomically(part / SOURCE, json.dumps(about, indent=2) + "\n")
+            write_manifest(part)
     run.workers.wait()
 
 

@@ -29,6 +29,16 @@ def check_mixture(also: Path | None, fraction: float | None) -> None:
         raise UsageError(f"--also-fraction must lie between 0 and 1, got {fraction:g}")
 
 
+def check_at_least_1(flag: str, value: int | None) -> None:
+    """Refuse a number below 1; None is a flag that was not given.
+
+    Raises:
+        UsageError: It is below 1.
+    """
+    if value is not None and value < 1:
+        raise UsageError(f"{flag} must be at least 1, got {value}")
+
+
 def also_fraction(also: Path | None, fraction: float | None, start: Path | None) -> float | None:
     """Fraction of a further data set in each batch; None draws every contact equally often."""
     if also is None or fraction is not None or start is None:
@@ -133,6 +143,7 @@ class TrainLlmRequest(TrainAllRequest):
 
     def __post_init__(self) -> None:
         check_mixture(self.also, self.also_fraction)
+        check_at_least_1("--heads-steps", self.heads_steps)
         sources = {
             "--methods": self.methods,
             "--encoder": self.encoder,

@@ -11,7 +11,6 @@ import hashlib
 import json
 import os
 import platform
-import shutil
 import time
 from dataclasses import replace
 from pathlib import Path
@@ -20,15 +19,11 @@ import torch
 from rich.console import Console
 from transformers.utils.logging import disable_progress_bar
 
-from cltp.atomic_write import write_atomically
+from cltp.atomic_write import copy_files, copy_folder, new_folder, write_atomically
 from cltp.checkpoints.base_lm import BaseLm, is_stock
 from cltp.checkpoints.card import PARTS, write_card
-from cltp.checkpoints.manifest import write_manifest
-from cltp.checkpoints.tac3d_llm import (
-    load_clip,
-    load_encoder,
-    size_bytes,
-)
+from cltp.checkpoints.manifest import manifest_digest, write_manifest
+from cltp.checkpoints.tac3d_llm import load_clip, load_encoder, size_bytes
 from cltp.data.dataset import ContactDataset
 from cltp.evaluation.splits import LEARNING_NOISE
 from cltp.llm.causal_lm import Language
@@ -255,24 +250,27 @@ def take_pretrained(methods: Path, out: Path) -> None:
     Raises:
         UsageError: CLTP was not trained there, or ``out`` holds another encoder.
         TouchError: The encoder can't be read, or takes points that sensors don't give.
+        OSError: A file can't be written.
     """
     trained = find_method("cltp", methods)
     about = (trained.folder / ABOUT).read_text(encoding="utf-8")
     stored = out / "encoder" / PRETRAINED
     if stored.exists() and stored.read_text(encoding="utf-8") == about:
         return
-    part = out / "encoder.part"  # exists while copying is under way, or was interrupted
-    if (out / "encoder").exists() or ((out / "clip").exists() and not part.exists()):
-        raise UsageError(f"{out} holds another encoder; choose another folder with --out")
+    clip = methods / "clip"
     load_encoder(trained.folder / "encoder")
-    load_clip(methods / "clip")
-    for folder in (part, out / "clip"):
-        shutil.rmtree(folder, ignore_errors=True)
-    shutil.copytree(trained.folder / "encoder", part)
-    shutil.copytree(methods / "clip", out / "clip")
-    write_atomically(part / PRETRAINED, about)
-    write_manifest(part)
-    part.rename(out / "encoder")
+    load_clip(clip)
+    has_clip = (out / "clip").exists()  # where the copying was stopped after it
+    if (out / "encoder").exists() or (
+        has_clip and manifest_digest(out / "clip") != manifest_digest(clip)
+    ):
+        raise UsageError(f"{out} holds another encoder; choose another folder with --out")
+    if not has_clip:
+        copy_folder(clip, out / "clip")
+    with new_folder(out / "encoder") as part:
+        copy_files(trained.folder / "encoder", part)
+        write_atomically(part / PRETRAINED, about)
+        write_manifest(part)
 
 
 def take_encoder(source: Path, out: Path) -> None:
@@ -281,6 +279,7 @@ def take_encoder(source: Path, out: Path) -> None:
     Raises:
         UsageError: ``out`` holds weights that are no blind copy.
         TouchError: The encoder can't be read.
+        OSError: A file can't be written.
     """
     if (out / "clip").exists() or ((out / "lm").exists() and not (out / BLIND_MARK).exists()):
         raise UsageError(f"{out} holds weights that see; give the blind copy a folder of its own")
@@ -288,7 +287,7 @@ def take_encoder(source: Path, out: Path) -> None:
     (out / BLIND_MARK).parent.mkdir(parents=True, exist_ok=True)
     (out / BLIND_MARK).touch()
     if not (out / "encoder").exists():
-        shutil.copytree(source / "encoder", out / "encoder")
+        copy_folder(source / "encoder", out / "encoder")
 
 
 def _digest(out: Path) -> str:

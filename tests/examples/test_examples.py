@@ -68,6 +68,22 @@ def test_the_own_task_replaces_no_task_of_its_name(here, monkeypatch):
     assert [task.read_text() for task in tasks] == ["mine", "mine"]
 
 
+@pytest.mark.parametrize(
+    ("name", "argv", "expected"),
+    [
+        ("08_serve.py", ["rule"], "expected rules or llm, got rule"),
+        ("11_train_on_your_own.py", [], "measured exists, of an earlier run; delete measured"),
+        ("12_qwen_from_disk.py", ["measured"], "no language model could be read from measured"),
+        ("12_qwen_from_disk.py", ["nowhere"], "nowhere: it is not a directory"),
+    ],
+)
+def test_a_likely_mistake_is_told_in_one_line(name, argv, expected, here, monkeypatch):
+    (here / "measured").mkdir()
+    with pytest.raises(SystemExit, match=expected) as caught:
+        run(name, *argv, monkeypatch=monkeypatch)
+    assert "\n" not in str(caught.value)
+
+
 def test_the_exported_table_has_a_row_for_each_step(here, monkeypatch):
     run("07_export.py", monkeypatch=monkeypatch)
     (table,) = here.glob("*.csv")

@@ -260,3 +260,20 @@ def test_reading_gives_a_tactile_cloud_without_a_clock(tmp_path: Path) -> None:
     cloud = read_cloud(tmp_path / "a.npy", MINI)
     assert isinstance(cloud, TactileCloud)
     assert cloud.stamp is None
+
+
+@pytest.mark.parametrize("name", ["points", "points_mm"])
+def test_points_of_another_shape_are_told_as_a_cloud(name: str, tmp_path: Path) -> None:
+    np.savez(tmp_path / "a.npz", **{name: np.zeros((5, 2))})
+    with pytest.raises(TouchError, match=rf"{name} is a cloud .* shape \(N, 3\), got \(5, 2\)"):
+        read_cloud(tmp_path / "a.npz", MINI)
+
+
+def test_an_array_of_few_columns_may_be_meant_as_a_cloud(tmp_path: Path) -> None:
+    np.save(tmp_path / "a.npy", np.zeros((5, 2)))
+    with pytest.raises(TouchError, match=r"a cloud needs shape \(N, 3\)"):
+        read_cloud(tmp_path / "a.npy", MINI)
+    np.save(tmp_path / "b.npy", np.zeros((320, 240)))
+    with pytest.raises(TouchError, match="doesn't fit") as caught:
+        read_cloud(tmp_path / "b.npy", MINI)
+    assert "cloud" not in str(caught.value)

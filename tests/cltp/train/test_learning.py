@@ -1,3 +1,4 @@
+import io
 import math
 import shutil
 from collections.abc import Sequence
@@ -439,11 +440,26 @@ def test_training_goes_on_where_it_was_stopped(data_dir: Path, tmp_path: Path) -
 def test_a_checkpoint_of_another_training_is_refused(tmp_path: Path) -> None:
     model = torch.nn.Linear(2, 1)
     Stage("s", run_in(tmp_path, 0), model, schedule(3, 1), {}).save()
-    with pytest.raises(TouchError, match="other data, seed or sizes"):
+    with pytest.raises(TouchError, match="another training: seed 0 instead of 1; delete it"):
         Stage("s", run_in(tmp_path, 1), model, schedule(3, 1), {})
-    (tmp_path / ".training" / "s.checkpoint").write_bytes(b"half")
-    with pytest.raises(TouchError, match="delete it"):
-        Stage("s", run_in(tmp_path, 0), model, schedule(3, 1), {})
+    with pytest.raises(TouchError, match="another training: steps 3 instead of 5; delete it"):
+        Stage("s", run_in(tmp_path, 0), model, schedule(5, 1), {})
+
+
+def test_a_damaged_checkpoint_is_called_so_without_torchs_words(tmp_path: Path) -> None:
+    model, path = torch.nn.Linear(2, 1), tmp_path / ".training" / "s.checkpoint"
+    Stage("s", run_in(tmp_path, 0), model, schedule(3, 1), {}).save()
+    whole = path.read_bytes()
+    packed = io.BytesIO()
+    torch.save({"step": 1}, packed)
+    for content in (b"", b"half", whole[: len(whole) // 2], packed.getvalue()):
+        path.write_bytes(content)
+        with pytest.raises(TouchError) as caught:
+            Stage("s", run_in(tmp_path, 0), model, schedule(3, 1), {})
+        assert str(caught.value) == (
+            f"checkpoint {path} is damaged; delete it, and the same command starts the stage s "
+            "afresh"
+        )
 
 
 def test_a_loss_that_is_not_finite_stops_the_stage(tmp_path: Path) -> None:

@@ -303,7 +303,20 @@ def test_an_error_of_the_disk_anywhere_is_one_line(
     assert main(["episodes", "ls"]) == 2
     error = capsys.readouterr().err
     assert error.startswith("tacgrasp: /full/disk.json can't be used: No space left on device")
+    assert error.endswith("free space, or name another file or folder\n")
     assert error.count("\n") == 1
+
+
+def test_freeing_space_is_advised_for_a_full_disk_alone(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def fail(*_: object, **__: object) -> None:
+        raise OSError(errno.ENOTDIR, "Not a directory", "/a/file/below")
+
+    monkeypatch.setattr("tacgrasp.cli.episodes._list", fail)
+    assert main(["episodes", "ls"]) == 2
+    expected = "/a/file/below can't be used: Not a directory; name another file or folder"
+    assert capsys.readouterr().err == f"tacgrasp: {expected}\n"
 
 
 def test_the_limit_of_these_tests_stops_a_write(tmp_path: Path) -> None:

@@ -144,6 +144,16 @@ def test_a_started_data_set_without_shards_is_not_complete(tmp_path):
         made.is_complete(tmp_path)
 
 
+def test_a_file_in_the_place_of_the_folder_is_refused(tmp_path):
+    file = tmp_path / "afile"
+    file.write_text("mine")
+    with pytest.raises(UsageError, match="afile is a file, not a folder"):
+        generate(file)
+    with pytest.raises(UsageError, match="afile is a file, not a folder"):
+        generate(file / "below")
+    assert file.read_text() == "mine"
+
+
 def test_a_folder_with_other_files_is_refused_and_left_as_it_is(tmp_path):
     (tmp_path / "README.md").write_text("mine")
     (tmp_path / "dataset.json.123.part").write_text("{")  # of another machine, just begun

@@ -31,6 +31,7 @@ from tacgrasp.episodes import (
 )
 from tacgrasp.episodes import writer as writer_module
 from tacgrasp.episodes.codec import field_descriptions, from_json, json_schema, to_json
+from tacgrasp.episodes.paths import check_record_directory
 from tacgrasp.episodes.record import ActionMessage, DecisionMessage, StepState
 from tacgrasp.episodes.touch_message import decode_cloud, encode_cloud
 from tests.fakes.episode_samples import (
@@ -312,6 +313,21 @@ def test_a_read_only_directory_is_refused(tmp_path: Path, monkeypatch: Patch) ->
     monkeypatch.setattr(os, "access", lambda *_: False)
     with pytest.raises(EpisodeError, match=r"is read-only.*--record"):
         make_record_directory(tmp_path)
+
+
+@pytest.mark.skipif(not Path("/proc/self").exists(), reason="needs Linux's /proc")
+@pytest.mark.parametrize("place", ["/proc/x", "/proc/x/y"])
+def test_a_file_system_that_takes_no_directory_is_quoted(place: str, monkeypatch: Patch) -> None:
+    monkeypatch.setattr(os, "access", lambda *_: True)  # as for root
+    with pytest.raises(EpisodeError, match=r"can't create /proc/x: .*; give another") as caught:
+        check_record_directory(Path(place))
+    assert "does not exist" not in str(caught.value)
+
+
+def test_checking_a_record_directory_leaves_nothing(tmp_path: Path) -> None:
+    check_record_directory(tmp_path / "a" / "b")
+    check_record_directory(tmp_path)
+    assert not list(tmp_path.iterdir())
 
 
 @pytest.mark.skipif(os.geteuid() == 0, reason="root may write to read-only directories")

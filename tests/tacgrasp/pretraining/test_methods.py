@@ -252,7 +252,8 @@ def test_cltp_learns_from_a_further_set_and_says_so(
     places = ["--weights", str(folder), "--data", str(data), "--results", str(results)]
     assert main(["eval", "zero-shot", *places, "--threads", "1"]) == 0
     assert list(results.glob("zero_shot-cltp-tiny+also-contact-s0.json"))
-    assert "other data, seed or sizes" in complaint(argv, capsys)
+    alone, both = (ContactDataset(data, also=also).checksum()[:8] for also in ((), (other,)))
+    assert f"training: data {both} instead of {alone}; delete it" in complaint(argv, capsys)
     assert "unknown arguments: --also" in complaint(
         ["train", "tvl", *argv[2:], "--also", str(other)], capsys
     )
@@ -410,7 +411,7 @@ def test_wrong_use_of_eval_is_told_in_one_line(
     [
         (["cltp", "--preset", "giant"], "unknown preset 'giant'"),
         (["tvl", "--no-image"], "unknown arguments: --no-image"),
-        (["point-mae", "--steps", "0"], "positive steps"),
+        (["point-mae", "--steps", "0"], "--steps must be at least 1, got 0"),
         (["all", "--steps", "5"], "unknown arguments: --steps 5"),
         (["tvl", "--preset", "tiny"], "tvl needs an encoder of image"),
     ],

@@ -1,11 +1,13 @@
 """The language model on the command line: what it is asked, and everything that can be wrong."""
 
+import errno
 import json
 import shlex
 import shutil
 import subprocess
 import sys
 from pathlib import Path
+from typing import BinaryIO
 
 import numpy as np
 import pytest
@@ -13,6 +15,7 @@ import torch
 
 import policies.llm.policy
 from cltp.checkpoints.manifest import write_manifest
+from cltp.checkpoints.tac3d_llm import load_clip
 from cltp.data.dataset import ContactDataset
 from cltp.llm.generation import Reply, Talker
 from cltp.texts.tokenizer import ACTIONS, Words
@@ -494,20 +497,48 @@ def test_taking_an_encoder_goes_on_where_it_was_stopped(
     methods: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     out = tmp_path / "weights"
-    whole = shutil.copytree
+    whole = shutil.copyfileobj
 
-    def stopped(source: Path, to: Path) -> Path:
-        if Path(to).name == "clip":
-            raise KeyboardInterrupt
-        return Path(whole(source, to))
+    for part in ("clip.part", "encoder.part"):
 
-    monkeypatch.setattr(shutil, "copytree", stopped)
-    with pytest.raises(KeyboardInterrupt):
-        train.take_pretrained(methods, out)
-    assert not (out / "encoder").exists()
-    monkeypatch.setattr(shutil, "copytree", whole)
+        def stopped(source: BinaryIO, to: BinaryIO, part: str = part) -> None:
+            if Path(to.name).parent.name == part and "model" in Path(to.name).name:
+                raise KeyboardInterrupt
+            whole(source, to)
+
+        monkeypatch.setattr(shutil, "copyfileobj", stopped)
+        with pytest.raises(KeyboardInterrupt):
+            train.take_pretrained(methods, out)
+        assert not (out / "encoder").exists()
+    monkeypatch.setattr(shutil, "copyfileobj", whole)
     train.take_pretrained(methods, out)
     assert sorted(path.name for path in out.iterdir()) == ["clip", "encoder"]
+    load_clip(out / "clip")
+
+
+@pytest.mark.parametrize(
+    "argv", ["llm --encoder {from}", "llm --methods {methods}", "cltp --start {from}"]
+)
+def test_a_copy_onto_a_full_disk_is_told_in_one_line_and_leaves_nothing(
+    argv: str,
+    weights: Path,
+    methods: Path,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def full(*_: object) -> None:
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    data = make_data(tmp_path / "data", num=12)
+    monkeypatch.setattr(shutil, "copyfileobj", full)
+    out = tmp_path / "out"
+    flags = argv.format(**{"from": weights, "methods": methods}).split()
+    places = ["--data", str(data), "--out", str(out), "--threads", "1"]
+    said = complaint(["train", *flags, *places], capsys)
+    assert f"{out / 'clip.part'}/" in said
+    assert "can't be used: No space left on device; free space" in said
+    assert not list(out.glob("*"))
 
 
 @pytest.mark.parametrize(

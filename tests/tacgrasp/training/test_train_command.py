@@ -236,6 +236,10 @@ def test_a_flag_of_another_stage_is_refused_by_name(
             "contrast_weight, prompt_weight and head_weight can't all be 0",
         ),
         (["random", "--threads", "0"], "--threads must be at least 1, got 0"),
+        (["cltp", "--steps", "0"], "--steps must be at least 1, got 0"),
+        (["clip", "--batch-size", "-2"], "--batch-size must be at least 1, got -2"),
+        (["cltp", "--learning-rate", "0"], "--learning-rate must be above 0, got 0"),
+        (["llm", "--heads-steps", "0"], "--heads-steps must be at least 1, got 0"),
     ],
 )
 def test_a_value_out_of_range_is_refused(
@@ -243,3 +247,25 @@ def test_a_value_out_of_range_is_refused(
 ) -> None:
     assert main(["train", *argv]) == 2
     assert expected in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("stage", ["clip", "cltp", "llm", "all", "queries"])
+def test_a_file_as_the_folder_to_write_is_called_one(
+    stage: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "afile"
+    file.write_text("mine")
+    assert main(["train", stage, "--out", str(file)]) == 2
+    assert f"--out {file} is a file, not a folder; name a" in capsys.readouterr().err
+    assert main(["train", stage, "--out", str(file / "below")]) == 2
+    assert f"--out {file / 'below'}: {file} is a file" in capsys.readouterr().err
+    assert file.read_text() == "mine"
+
+
+def test_data_to_be_made_in_the_place_of_a_file_are_refused(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "afile"
+    file.write_text("mine")
+    assert main(["train", "all", "--data", str(file), "--out", str(tmp_path / "out")]) == 2
+    assert f"the data set {file} is a file, not a folder" in capsys.readouterr().err
