@@ -92,6 +92,10 @@ _STANDS_ALONE = re.compile(
 """A question with subject and verb: 'Is it round?' follows nothing, 'Is it?' may."""
 
 
+_HALF_SAID = re.compile(r"\b(?:between|both|from)\b[^,;?.]*$", re.I)
+"""What 'and' goes on with: 'between the limit', 'from the middle'."""
+
+
 class QueryWriter(Protocol):
     """What writes queries; ``cltp.llm.generation.Talker`` is one."""
 
@@ -229,7 +233,11 @@ def _in_parts(writer: QueryWriter, question: str) -> ReadQuestion | None:
     A comma alone may stand before an addition: 'the force, in plain newtons'.
     """
     question = REQUEST.sub("", question, count=1)
-    joints = [joint for joint in JOINT.finditer(question) if joint[0].strip() != ","]
+    joints = [
+        joint
+        for joint in JOINT.finditer(question)
+        if joint[0].strip() != "," and not _HALF_SAID.search(question[: joint.start()])
+    ]
     best: ReadQuestion | None = None
     for joint in joints[:MOST_DIVIDED]:
         parts = [

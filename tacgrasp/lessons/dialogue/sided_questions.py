@@ -40,7 +40,7 @@ _SIGN = re.compile(r"\b(?:minus|negative|plus|positive|sign|signed)\b")
 _SIGN_OF_SIDE = (
     re.compile(
         r"\b(?P<sign>minus|negative|plus|positive) "
-        r"(?:(?:for|if|when|to|towards?|means|meaning|is|being|the|it|its) )*"
+        r"(?:(?:for|if|when|to|towards?|means|meaning|is|being|the|it|its) )+"
         r"(?P<side>[a-z]+)"
     ),
     re.compile(

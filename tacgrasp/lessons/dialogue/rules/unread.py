@@ -50,7 +50,7 @@ _PATTERNS = (
     r"\b(?:left|right|tip|palm)wards?\b.*(?:microns?|micromet\w+|[µu]m|cm|centimet\w+)\b",
     # another friction, and another pad, than what answers go by
     rf"\bcoefficient\b|\bfriction (?:of|as|at|is|being) {_NUMBER}",
-    r"\b(?:pad|sensor|gel|face)(?: \w+)? (?:is|were|was|measures|has|as|spans) "
+    r"\b(?:pad|sensor|gel|face)(?: \w+)? (?:is|were|was|measures|spans) "
     rf"{_NUMBER} ?(?:mm|cm|square|by)",
     # units that a quantity can't have
     rf"\b(?:depth|deep|indentation|dent)\b{_SAME} in (?:grams?|g|kg|kilos?|newtons?|m?n|percent)\b",

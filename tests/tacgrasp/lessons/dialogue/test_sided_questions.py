@@ -31,6 +31,7 @@ def test_a_query_counts_to_the_side_that_is_named(words, query, turned):
         ("how far left or right is it", "amount x mm."),
         ("how far left counting as negative", "amount x mm."),
         ("how far to the right minus for the left", "amount x mm."),
+        ("how far along x right is positive left is negative", "amount x mm."),
         ("is x below # mm", "check x < #1 mm."),
         ("is y below # mm", "check y < #1 mm."),
         ("how far down is it and how deep", "amount depth mm."),
