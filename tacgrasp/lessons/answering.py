@@ -30,7 +30,7 @@ from tacgrasp.lessons.dialogue.meaning import (
 )
 from tacgrasp.lessons.dialogue.scene import AskedScene
 from tacgrasp.lessons.dialogue.scoring.tolerances import tolerance_of
-from tacgrasp.lessons.understanding import ReadQuestion
+from tacgrasp.lessons.read_question import ReadQuestion
 
 PROBABLY_BELOW = 0.6
 """Probability of a word below which an answer says 'probably'. As in D_t."""

@@ -13,7 +13,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from itertools import islice
-from typing import NamedTuple, Protocol
+from typing import Protocol
 
 import numpy as np
 import torch
@@ -25,7 +25,6 @@ from tacgrasp.lessons.dialogue.conditions import check_of
 from tacgrasp.lessons.dialogue.families.catalogue import understand
 from tacgrasp.lessons.dialogue.meaning import (
     Check,
-    Meaning,
     Several,
 )
 from tacgrasp.lessons.dialogue.plainer import (
@@ -42,17 +41,15 @@ from tacgrasp.lessons.dialogue.query import (
 from tacgrasp.lessons.dialogue.rules.unread import is_beyond
 from tacgrasp.lessons.dialogue.sided_questions import to_named_side
 from tacgrasp.lessons.dialogue.written_units import in_asked_unit, numbers_in_units
+from tacgrasp.lessons.divided_questions import divided
 from tacgrasp.lessons.joined_questions import (
-    JOINT,
-    REQUEST,
     asked_together,
     is_either,
-    joinable,
-    together,
     with_adjective,
 )
 from tacgrasp.lessons.query_classifier import QueryOdds
 from tacgrasp.lessons.question_form import denied_statement, is_one_clause, is_unlikely
+from tacgrasp.lessons.read_question import ReadQuestion
 
 NAMED = 12
 """Queries that the classifier names beside the model's. Our choice: the right one is seldom a
@@ -75,13 +72,6 @@ FOLLOW_UP_WORDS = 5
 ALONE_FROM = 0.5
 """Confidence from which a question that does not begin as a follow-up is none. Our choice."""
 
-PARTS_FROM = 0.4
-"""Confidence from which two questions, each read by itself, are preferred to what the model makes
-of both together. Our choice, by questions that are not the kept-out ones."""
-
-MOST_DIVIDED = 3
-"""Most places where a question is divided in two. Our choice: a pasted page would take seconds."""
-
 _FOLLOWS = re.compile(r"(?:and|but|then|why|how come|what about|how about|same)\b", re.I)
 
 _STANDS_ALONE = re.compile(
@@ -90,10 +80,6 @@ _STANDS_ALONE = re.compile(
     re.I,
 )
 """A question with subject and verb: 'Is it round?' follows nothing, 'Is it?' may."""
-
-
-_HALF_SAID = re.compile(r"\b(?:between|both|from)\b[^,;?.]*$", re.I)
-"""What 'and' goes on with: 'between the limit', 'from the middle'."""
 
 
 class QueryWriter(Protocol):
@@ -111,21 +97,6 @@ class QueryWriter(Protocol):
     def log_likelihoods(self, prompt: str, replies: Sequence[str]) -> list[float]:
         """Log-probabilities of whole replies to a prompt without touch."""
         ...
-
-
-class ReadQuestion(NamedTuple):
-    """What a question means.
-
-    Attributes:
-        query: It as a query.
-        meaning: The query's meaning.
-        confidence: Probability of the query among those that model or classifier name; 1 by the
-            grammar.
-    """
-
-    query: str
-    meaning: Meaning
-    confidence: float
 
 
 def understood(writer: QueryWriter, question: str, before: str = "") -> ReadQuestion | None:
@@ -215,53 +186,14 @@ def understood_by_model(
         numbers = numbers_in_units(told, asked.words, asked.numbers)
         query, meaning = told, read_query(told, numbers or asked.numbers) or meaning
     read = ReadQuestion(query, meaning, confidence=float(weights[best] / weights.sum()))
-    if not before and (parts := _in_parts(writer, plain)):
-        least = PARTS_FROM if isinstance(meaning, Several) else ALONE_FROM
-        if parts.confidence >= least and (isinstance(meaning, Several) or _asks_more(parts, read)):
-            read = parts
+    if not before and (parts := divided(plain, read, lambda part: understood(writer, part))):
+        read = parts
     return _as_one(plain, read)
 
 
 def _as_told(query: str, words: str) -> str:
     """A query with the side and the unit that the question names; '' where it has no such unit."""
     return in_asked_unit(to_named_side(query, words), words)
-
-
-def _in_parts(writer: QueryWriter, question: str) -> ReadQuestion | None:
-    """What two questions ask that are joined in one, each read by itself; None where one is not.
-
-    A comma alone may stand before an addition: 'the force, in plain newtons'.
-    """
-    question = REQUEST.sub("", question, count=1)
-    joints = [
-        joint
-        for joint in JOINT.finditer(question)
-        if joint[0].strip() != "," and not _HALF_SAID.search(question[: joint.start()])
-    ]
-    best: ReadQuestion | None = None
-    for joint in joints[:MOST_DIVIDED]:
-        parts = [
-            understood(writer, part)
-            for part in (question[: joint.start()], question[joint.end() :])
-            if part.strip()
-        ]
-        told = [part for part in parts if part is not None and joinable(part.meaning)]
-        sure = min((part.confidence for part in told), default=0.0)
-        if len(told) < 2 or (best is not None and sure <= best.confidence):
-            continue
-        meaning = together([one for part in told for one in joinable(part.meaning)])
-        try:
-            query = query_of(meaning, asked_text(question).numbers)
-        except ValueError:  # more parts than a query has, or a number that is no number of it
-            continue
-        best = ReadQuestion(query, meaning, sure)
-    return best
-
-
-def _asks_more(joined: ReadQuestion, read: ReadQuestion) -> bool:
-    """Whether a reading has all parts of another one, and more."""
-    parts, fewer = (set(each.query.rstrip(".").split("; ")) for each in (joined, read))
-    return fewer < parts
 
 
 def _denied(read: ReadQuestion | None, question: str) -> ReadQuestion | None:

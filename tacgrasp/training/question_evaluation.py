@@ -47,8 +47,8 @@ from tacgrasp.lessons.question_scores import (
     figures_by_family,
     perfect_answer,
 )
+from tacgrasp.lessons.read_question import ReadQuestion
 from tacgrasp.lessons.understanding import (
-    ReadQuestion,
     understood_by_grammar,
     understood_by_model,
 )

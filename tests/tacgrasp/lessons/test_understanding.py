@@ -9,8 +9,8 @@ from tacgrasp.lessons import joined_questions, understanding
 from tacgrasp.lessons.answering import NOT_UNDERSTOOD, answered
 from tacgrasp.lessons.dialogue.query import read_query
 from tacgrasp.lessons.query_classifier import QueryOdds
+from tacgrasp.lessons.read_question import ReadQuestion
 from tacgrasp.lessons.understanding import (
-    ReadQuestion,
     understood,
     understood_in_turn,
 )
