@@ -122,7 +122,9 @@ ROWS: Mapping[str, RowRecipe] = {
     ),
     "cltp_quarter": _quarter("CLTP, all points, a quarter of the budget", _USUAL),
     "cltp_pressure": replace(
-        _quarter("the same, which sees the pressure under the heights too", _USUAL),
+        _quarter(
+            "CLTP, all points and the pressure under their heights, a quarter of the budget", _USUAL
+        ),
         preset="grid_pressure",
     ),
     "papers_losses": _quarter(
