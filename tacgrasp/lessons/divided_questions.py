@@ -23,13 +23,13 @@ ADDED_FROM = 0.5
 MOST_DIVIDED = 3
 """Most places where a question is divided in two. Our choice: a pasted page would take seconds."""
 
+Reader = Callable[[str], ReadQuestion | None]
+
 _HALF_SAID = re.compile(r"\b(?:between|both|from)\b[^,;?.]*$", re.I)
 """What 'and' goes on with: 'between the limit', 'from the middle'."""
 
 
-def divided(
-    question: str, whole: ReadQuestion, read: Callable[[str], ReadQuestion | None]
-) -> ReadQuestion | None:
+def divided(question: str, whole: ReadQuestion, known: Reader, read: Reader) -> ReadQuestion | None:
     """What two questions ask that are joined in one, each read by itself; None where one is not.
 
     They are preferred to a model's several parts, and to one part where the grammar knows another.
@@ -38,7 +38,8 @@ def divided(
     Args:
         question: The question.
         whole: What a model makes of all of it.
-        read: Reads a part.
+        known: Reads a part by the grammar.
+        read: Reads a part that the grammar lacks, which takes longer.
     """
     question = REQUEST.sub("", question, count=1)
     num_parts = len(whole.meaning.parts) if isinstance(whole.meaning, Several) else 1
@@ -49,11 +50,14 @@ def divided(
     ]
     best: ReadQuestion | None = None
     for joint in joints[:MOST_DIVIDED]:
-        told = [
-            part
-            for text in (question[: joint.start()], question[joint.end() :])
-            if text.strip() and (part := read(text)) and joinable(part.meaning)
+        texts = [
+            text for text in (question[: joint.start()], question[joint.end() :]) if text.strip()
         ]
+        found = [known(text) for text in texts]
+        if num_parts == 1 and not any(found):
+            continue
+        either = (part or read(text) for part, text in zip(found, texts, strict=True))
+        told = [part for part in either if part is not None and joinable(part.meaning)]
         sure = [part.confidence for part in told]
         least = PARTS_FROM if num_parts > 1 else ADDED_FROM
         if (
@@ -68,8 +72,7 @@ def divided(
         except ValueError:  # more parts than a query has, or a number that is no number of it
             continue
         joined = ReadQuestion(query, meaning, min(sure))
-        adds = max(sure) == 1.0 and _asks_more(joined, whole)
-        if adds if num_parts == 1 else len(parts) <= num_parts:
+        if _asks_more(joined, whole) if num_parts == 1 else len(parts) <= num_parts:
             best = joined
     return best
 

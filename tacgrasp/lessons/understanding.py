@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from functools import partial
 from itertools import islice
 from typing import Protocol
 
@@ -186,8 +187,9 @@ def understood_by_model(
         numbers = numbers_in_units(told, asked.words, asked.numbers)
         query, meaning = told, read_query(told, numbers or asked.numbers) or meaning
     read = ReadQuestion(query, meaning, confidence=float(weights[best] / weights.sum()))
-    if not before and (parts := divided(plain, read, lambda part: understood(writer, part))):
-        read = parts
+    if not before:
+        by_model = partial(understood_by_model, writer)
+        read = divided(plain, read, understood_by_grammar, by_model) or read
     return _as_one(plain, read)
 
 
