@@ -57,6 +57,8 @@ class EncoderVariant:
 _READING = {"bearing": 64, "projection": 256}
 """Height quantiles and a hidden layer before the feature."""
 
+_GRID: Sizes = {**_READING, "num_groups": 63, "stem_dim": 32, "grades": 60}
+
 VARIANTS: Mapping[str, EncoderVariant] = {
     # Ours: all heights in 75 × 100 cells, convolutions down to 7 × 9 groups.
     "grid": EncoderVariant(
@@ -64,11 +66,8 @@ VARIANTS: Mapping[str, EncoderVariant] = {
             c.dim, c.stem_dim, c.stem_blocks, has_pressure=bool(c.pressure)
         ),
         presets={
-            "grid": {**_READING, "num_groups": 63, "stem_dim": 32, "grades": 60},
-            "grid_pressure": {
-                **_READING,
-                **{"num_groups": 63, "stem_dim": 32, "grades": 60, "pressure": 1},
-            },
+            "grid": _GRID,
+            "grid_pressure": {**_GRID, "pressure": 1},
             "tiny_grid": {
                 **{"num_groups": 63, "dim": 48, "depth": 1, "heads": 2, "stem_dim": 4},
                 **{"bearing": 16},

@@ -113,8 +113,7 @@ _AS_BEFORE = re.compile(
 """After 'as hard': as the task has it."""
 
 _CORRECTED = re.compile(
-    r"\b(?:no,? wait|wait,? no|i mean(?:t)?|correction|scratch that|or rather|pardon(?: me)?|oops|whoops|my mistake|"
-    r"(?:oh|hmm+|ah),? no)\b[ ,:.…!-]*"
+    rf"\b(?:no,? wait|wait,? no|{words.any_of('correction')}|(?:oh|hmm+|ah),? no)\b[ ,:.…!-]*"
 )
 _AS_USUAL = re.compile(
     r"\b(?:normal(?:ly)?|usual(?:ly)?|ordinary|ordinarily|regular(?:ly)?|medium)\b"

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import re
 
+from policies.instructions.english import words
 from policies.instructions.quantities.force_units import ALONE, NUMBER, UNIT, in_newtons, number
 
 _BARE = NUMBER.removeprefix(ALONE)
@@ -94,7 +95,7 @@ _ALTERNATIVES = (
 )
 """'0.5 or 1 N', '1 N or 0.8'."""
 _CORRECTED = re.compile(
-    rf"\b(?:no(?!\.)|wait|make (?:that|it)|i mean|i meant|correction|scratch that|or rather|better(?: still| yet)?|sorry|pardon(?: me)?|oops|whoops|my mistake|actually|otherwise|else)[ ,:.…!-]*(?:(?:i (?:mean|meant|said)|use|make (?:it|that)|only|just|no|wait|rather) )*(?P<a>{NUMBER}){_AFTER}"
+    rf"\b(?:no(?!\.)|wait|make (?:that|it)|{words.any_of('correction')}|better(?: still| yet)?|sorry|actually|otherwise|else)[ ,:.…!-]*(?:(?:i (?:mean|meant|said)|use|make (?:it|that)|only|just|no|wait|rather) )*(?P<a>{NUMBER}){_AFTER}"
 )
 """'0.5 N, no wait, 0.8'."""
 _ONE_ALONE = re.compile(

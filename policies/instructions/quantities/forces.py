@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from typing import Literal
 
+from policies.instructions.english import words as english
 from policies.instructions.english.denials import NO_CASE
 from policies.instructions.quantities.force import MARK, Force, Kind
 from policies.instructions.quantities.outcomes import EarlierGrip, is_again, outcome
@@ -31,7 +32,7 @@ _BETWEEN = re.compile(
 )
 _WITHIN = re.compile(r"(?:between|from|in|within)\b")
 _CORRECTION = re.compile(
-    r"\b(?:no,? wait|wait,? no|make (?:that|it)|i mean|i meant|correction|scratch that|in other words|i\.e\.|meaning|or rather|sorry|pardon(?: me)?|oops|whoops|my mistake|(?:hmm+|oh),? no|actually|(?:or )?better(?: still| yet)?(?=[ ,:]*$))\b[ ,:-]*"
+    rf"\b(?:no,? wait|wait,? no|make (?:that|it)|{english.any_of('correction')}|in other words|i\.e\.|meaning|sorry|(?:hmm+|oh),? no|actually|(?:or )?better(?: still| yet)?(?=[ ,:]*$))\b[ ,:-]*"
 )
 _CONDITION = re.compile(
     r"\bif\b.*?(?=\b(?:use|hold|grip|apply|take|go|try|squeeze|press|then)\b)|\bif not\b"
