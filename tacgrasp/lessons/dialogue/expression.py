@@ -1,9 +1,10 @@
 """The truth of a question as an expression over a scene's names, evaluated without running code.
 
 An expression has names of ``tacgrasp.lessons.dialogue.scene``, numbers, words in quotes (or bare,
-where they are words of a class: ``shape == sphere``), ``+ - * /``, comparisons, ``and or not`` and
-the functions ``abs``, ``hypot``, ``min`` and ``max``. Nothing else is read. Words of depth and area
-have an order, so ``depth >= 'deep'`` is a comparison.
+where they are words of a class: ``shape == sphere``), ``+ - * / **``, comparisons, ``in`` and ``not in``
+a list, ``and or not``, ``a if c else b`` and the functions ``abs``, ``hypot``, ``min``, ``max`` and
+``sqrt``. Nothing else is read. Words of depth and area have an order, so ``depth >= 'deep'`` is a
+comparison.
 """
 
 from __future__ import annotations
@@ -22,6 +23,9 @@ from tacgrasp.lessons.dialogue.scene import NAMES, Value
 MAX_LENGTH = 200
 """Longest expression [characters]."""
 
+MAX_POWER = 4
+"""Largest power of a number: more would take its time."""
+
 _WORDS = frozenset(word for words in CLASSES.values() for word in words)
 _ORDERED = [CLASSES["depth"], CLASSES["area"]]
 _ARITHMETIC: Mapping[type[ast.AST], Callable[[float, float], float]] = {
@@ -29,6 +33,7 @@ _ARITHMETIC: Mapping[type[ast.AST], Callable[[float, float], float]] = {
     ast.Sub: operator.sub,
     ast.Mult: operator.mul,
     ast.Div: operator.truediv,
+    ast.Pow: math.pow,
 }
 _COMPARISONS: Mapping[type[ast.AST], Callable[[Any, Any], bool]] = {
     ast.Lt: operator.lt,
@@ -43,6 +48,7 @@ _FUNCTIONS: Mapping[str, tuple[int, Callable[..., float]]] = {
     "hypot": (2, math.hypot),
     "min": (2, min),
     "max": (2, max),
+    "sqrt": (1, math.sqrt),
 }
 
 
@@ -99,6 +105,22 @@ class Expression:
                     return sides
         return ()
 
+    @cached_property
+    def choices(self) -> tuple[str, ...]:
+        """The words of ``a if c else b`` where it is one between quoted words; else empty."""
+
+        def words(node: ast.AST) -> list[str | None]:
+            match node:
+                case ast.IfExp(body=body, orelse=orelse):
+                    return words(body) + words(orelse)
+                case ast.Constant(value=str(word)):
+                    return [word]
+            return [None]
+
+        found = [word for word in words(self._tree) if word is not None]
+        is_choice = isinstance(self._tree, ast.IfExp) and len(found) == len(words(self._tree))
+        return tuple(dict.fromkeys(found)) if is_choice else ()
+
     def _check(self, node: ast.AST) -> None:
         """Refuse all that is not listed in the module's docstring."""
         match node:
@@ -110,10 +132,20 @@ class Expression:
                 return
             case ast.UnaryOp(op=ast.USub() | ast.UAdd() | ast.Not(), operand=operand):
                 parts = [operand]
+            case ast.BinOp(op=ast.Pow(), right=right) if not _is_power(right):
+                raise ValueError(f"{self.text!r}: a truth's power must be a number from 0 to {MAX_POWER}")
             case ast.BinOp(left=left, op=op, right=right) if type(op) in _ARITHMETIC:
                 parts = [left, right]
             case ast.BoolOp(values=values):
                 parts = values
+            case ast.IfExp(test=test, body=body, orelse=orelse):
+                parts = [test, body, orelse]
+            case ast.Compare(
+                left=left,
+                ops=[ast.In() | ast.NotIn()],
+                comparators=[ast.Tuple(elts=others) | ast.List(elts=others) | ast.Set(elts=others)],
+            ):
+                parts = [left, *others]
             case ast.Compare(left=left, ops=ops, comparators=others) if all(
                 type(op) in _COMPARISONS for op in ops
             ):
@@ -125,7 +157,8 @@ class Expression:
             case _:
                 raise ValueError(
                     f"{self.text!r} has {type(node).__name__}, which no truth may have; use names, "
-                    "numbers, quoted words, + - * /, comparisons, and or not, abs hypot min max"
+                    "numbers, quoted words, + - * / **, comparisons, in, and or not, if else, "
+                    + " ".join(_FUNCTIONS)
                 )
         for part in parts:
             self._check(part)
@@ -141,9 +174,16 @@ class Expression:
             value = _evaluate(self._tree, values, margins)
         except _UndefinedError:
             return TruthValue(value=None)
-        except (TypeError, ZeroDivisionError) as error:
+        except (TypeError, ValueError, ArithmeticError) as error:
             raise ValueError(f"{self.text!r} can't be evaluated: {error}") from None
         return TruthValue(value=value, margin=min(margins))
+
+
+def _is_power(node: ast.AST) -> bool:
+    match node:
+        case ast.Constant(value=int(power) | float(power)):
+            return 0 <= power <= MAX_POWER
+    return False
 
 
 class _UndefinedError(Exception):
@@ -172,6 +212,16 @@ def _evaluate(node: ast.AST, values: Mapping[str, Value], margins: list[float]) 
         case ast.BoolOp(op=op, values=parts):
             truths = [bool(_evaluate(part, values, margins)) for part in parts]
             return all(truths) if isinstance(op, ast.And) else any(truths)
+        case ast.IfExp(test=test, body=body, orelse=orelse):
+            return _evaluate(body if _evaluate(test, values, margins) else orelse, values, margins)
+        case ast.Compare(
+            left=left,
+            ops=[(ast.In() | ast.NotIn()) as op],
+            comparators=[ast.Tuple(elts=parts) | ast.List(elts=parts) | ast.Set(elts=parts)],
+        ):
+            own = _evaluate(left, values, margins)
+            is_in = own in [_evaluate(part, values, margins) for part in parts]
+            return is_in == isinstance(op, ast.In)
         case ast.Compare(left=left, ops=ops, comparators=others):
             sides = [_evaluate(part, values, margins) for part in (left, *others)]
             return all(

@@ -139,11 +139,16 @@ class AnswerReading:
     is_off_topic: bool
     is_nothing: bool
 
-    def words(self, name: str) -> Sequence[str]:
-        """Words of a scene's name in the answer, each once, in order."""
+    def words(self, name: str, choices: Sequence[str] = ()) -> Sequence[str]:
+        """Words of a scene's name in the answer, or of these to choose from, each once.
+
+        Choices that are words of a name are said as that name's.
+        """
         if name in CLASSES:
             return _class_words(name, self.text)
-        phrases = _PHRASES.get(name, {})
+        named = [each for each in _PHRASES.values() if choices and set(choices) <= each.keys()]
+        plain = {word: rf"\b{re.escape(word)}\b" for word in choices}
+        phrases = _PHRASES.get(name) or next(iter(named), plain)
         text = self.text.replace("not cut", "whole")
         return [str(word) for word, pattern in phrases.items() if re.search(pattern, text, re.I)]
 

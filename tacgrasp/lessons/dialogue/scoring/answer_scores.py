@@ -108,7 +108,7 @@ def _is_of_kind(reading: AnswerReading, row: QuestionRow) -> bool:
 
 
 def _says_something(reading: AnswerReading, truth: Expression) -> bool:
-    if reading.words(truth.text):
+    if reading.words(truth.text, truth.choices):
         return True
     dimension = dimension_of(truth)
     if truth.text in NAMES and truth.text not in VERDICTS:
@@ -140,7 +140,7 @@ def _has_all(
     asks_mass = any(dimension_of(truth) == "mass" for truth in row.truths)
     for expression, truth in zip(row.truths, truths, strict=True):
         if isinstance(truth.value, str):
-            if reading.words(expression.text) != [truth.value]:
+            if reading.words(expression.text, expression.choices) != [truth.value]:
                 return False
         elif isinstance(truth.value, bool):
             if not verdicts or verdicts.pop(0) != truth.value:

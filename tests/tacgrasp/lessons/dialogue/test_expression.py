@@ -28,6 +28,12 @@ from tests.fakes.question_scenes import ASIDE, FREE, HELD, UNTOUCHED
         ("force_band", "within"),
         ("action", "lift"),
         ("holds_g", 0.83 / 0.0205),
+        ("(x_mm ** 2 + y_mm ** 2) ** 0.5", math.hypot(0.8, 1.2)),
+        ("sqrt(x_mm * x_mm)", 0.8),
+        ("shape in ('ring', 'ellipsoid')", True),
+        ("shape not in [ring, ellipsoid]", False),
+        ("'low' if force_n < 0.5 else 'high' if force_n > 0.6 else 'middle'", "high"),
+        ("limit_n - force_n if force_n < limit_n else 0", 1.3 - 0.83),
     ],
 )
 def test_an_expression_has_its_value(text, value):
@@ -70,7 +76,10 @@ def test_the_names_of_an_expression_are_known():
         "lambda: 1",
         "max(1)",
         "open('x')",
-        "depth_mm if contact else 0",
+        "depth_mm ** force_n",
+        "2 ** -1",
+        "shape in 'ring'",
+        "depth_mm if contact else open('x')",
         "(x_mm := 3)",
         "f'{x_mm}'",
         "x_mm" + " + 1" * 60,
@@ -81,7 +90,10 @@ def test_anything_else_is_refused(text):
         Expression(text)
 
 
-@pytest.mark.parametrize("text", ["shape > 'ring'", "shape + 1", "depth_mm / 0", "shape == 3"])
+@pytest.mark.parametrize(
+    "text",
+    ["shape > 'ring'", "shape + 1", "depth_mm / 0", "shape == 3", "sqrt(-2)", "(0 - 2) ** 0.5"],
+)
 def test_what_can_not_be_evaluated_is_named(text):
     with pytest.raises(ValueError, match="can't be evaluated"):
         Expression(text).evaluate(HELD.values())
