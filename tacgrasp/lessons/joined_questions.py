@@ -16,7 +16,16 @@ from collections.abc import Iterator, Sequence
 
 from tacgrasp.lessons.dialogue.conditions import check_of
 from tacgrasp.lessons.dialogue.families.catalogue import understand
-from tacgrasp.lessons.dialogue.meaning import Amount, Check, Length, Meaning, Several, Which
+from tacgrasp.lessons.dialogue.meaning import (
+    Amount,
+    Calculated,
+    Check,
+    Length,
+    Meaning,
+    Part,
+    Several,
+    Which,
+)
 from tacgrasp.lessons.dialogue.plainer import AUXILIARY, plainer
 from tacgrasp.lessons.dialogue.rules.ruled import ruled
 from tacgrasp.lessons.question_form import is_one_clause
@@ -47,7 +56,8 @@ _ADJECTIVE = re.compile(
 )
 
 _NEITHER = re.compile(
-    rf"(?:(?P<verb>{AUXILIARY}) )?(?P<subject>it|this|that|(?:the|our|this|that) \w+)? ?"
+    rf"(?:(?P<verb>{AUXILIARY}) )?(?:(?P<subject>it|this|that|(?:the|our|this|that) \w+)"
+    r"(?: (?:touching|on|against|in|under) the \w+)?)? ?"
     r"(?:is |['’]s )?neither (?P<parts>.+? nor .+?)(?:,? (?:right|correct|yes|no|true))?[?.! ]*",
     re.I,
 )
@@ -61,18 +71,52 @@ _NOT_EITHER = re.compile(r"\b(?:and|not|neither|or not)\b|n['’]t\b", re.I)
 
 REQUEST = re.compile(
     r"^(?:(?:could|can|would|will) you )?(?:please |kindly )?(?:give|tell|note|state|report|name|"
-    r"list|enumerate|specify|show|measure|read|write|send)(?: down| out)?(?: (?:me|us))?"
-    r"(?: for the \w+)?[ :]+",
+    r"list|enumerate|specify|show|measure|read|write|send|log|record|quote|describe)"
+    r"(?: down| out| off)?(?: (?:me|us))?(?: for the \w+)?[ :,]+|"
+    r"^(?:(?:could|can|may) (?:i|we) (?:have|get|see)|(?:i|we) (?:need|want|would like)|let "
+    r"me have) ",
     re.I,
 )
 """What may stand before a list of things that are asked for."""
 
+_COUNTED = re.compile(
+    r"^(?:(?:the|these|just|only) )?(?:\d|two|three|four|five|several|a few) (?:things|items|"
+    r"figures|values|"
+    r"numbers|readings|words|answers|facts|entries)\b[^:,]{0,25}(?:, please)?[:,] *",
+    re.I,
+)
+"""'Three items for the log, please: ...'"""
+
 _AT_LENGTH = re.compile(
-    r"^in (?:one|a) (?:single )?(?:sentence|word)(?: each)?[,:] |,? (?:all )?in (?:one|a) "
-    r"(?:single |short |full |complete )?(?:sentence|word|line)(?: each)?[.?!]*$",
+    r"^in (?:one|a) (?:single )?(?:sentence|word)(?: each| for [\w ]{2,20})?[,:] |,? (?:all "
+    r")?in (?:one|a) "
+    r"(?:single |short |full |complete )?(?:sentence|word|line)(?: each)?(?:[.?!]*$|, )",
     re.I,
 )
 """How long an answer is to be; that to several questions is as long as it must be."""
+
+_LISTED = re.compile(
+    r",? (?:(?:please|both|all|all three|each)(?: (?:figures|numbers|values|of (?:them|"
+    r"these)))?|nothing else|go|"
+    r"of what (?:you|we) feel|for (?:my|our|the) \w+)(?=[.?!,]*$)",
+    re.I,
+)
+"""What may stand behind a list."""
+
+_BOTH_ENDS = re.compile(
+    r"\b(?:(?:the )?(?:two |both )?(?:ends|edges|bounds|limits) of (?:the |our )?(?:\w+ "
+    r")?(?:band|window|range)|"
+    r"(?:the |our )?(?:\w+ )?(?:band|window|range)(?:,|:| -)? (?:its )?(?:low|lower|bottom|"
+    r"lower end)(?: end)? and "
+    r"(?:its )?(?:high|upper|top|upper end)(?: end)?)\b",
+    re.I,
+)
+_HOW_MUCH = re.compile(
+    r"\bhow much (?=(?:force|area|depth|pressure)(?: in \w+)?(?:,|;|[?.!]*$| and\b))", re.I
+)
+"""'How deep, how much force': a noun in a list."""
+
+_LOW_AND_HIGH = "lower end of the band and upper end of the band"
 
 
 def asked_together(question: str) -> Meaning | None:
@@ -86,9 +130,12 @@ def is_either(question: str) -> bool:
     return _OR.search(question) is not None and _NOT_EITHER.search(question) is None
 
 
-def joined(question: str, most: int = MOST_JOINED) -> tuple[Amount | Check | Which, ...]:
+def joined(question: str, most: int = MOST_JOINED) -> tuple[Part, ...]:
     """The meanings of at most so many joined wordings of the grammar; none where it lacks one."""
-    question = _AT_LENGTH.sub("", REQUEST.sub("", question, count=1))
+    question = _COUNTED.sub("", REQUEST.sub("", _AT_LENGTH.sub(" ", question).strip(), count=1))
+    question = _HOW_MUCH.sub("", _BOTH_ENDS.sub(_LOW_AND_HIGH, question))
+    while (shorter := _LISTED.sub("", question)) != question:
+        question = shorter
     joints = list(JOINT.finditer(question))
     if len(joints) > MOST_JOINTS:
         return ()
@@ -160,7 +207,7 @@ def with_adjective(question: str) -> Meaning | None:
     return Several(parts=tuple(checks)) if named == ["texture", "shape"] else None
 
 
-def together(parts: Sequence[Amount | Check | Which]) -> Meaning:
+def together(parts: Sequence[Part]) -> Meaning:
     """Parts as one meaning; 'is it slight, moderate or deep' offers all three words."""
     offered = {part.name for part in parts if isinstance(part, Which) and not part.is_open}
     kept = tuple(
@@ -171,10 +218,12 @@ def together(parts: Sequence[Amount | Check | Which]) -> Meaning:
     return kept[0] if len(kept) == 1 else Several(parts=kept)
 
 
-def joinable(meaning: Meaning | None) -> tuple[Amount | Check | Which, ...]:
+def joinable(meaning: Meaning | None) -> tuple[Part, ...]:
     """The parts of what can be asked together with others; none of what can't be."""
     if isinstance(meaning, Several):
         return meaning.parts
+    if isinstance(meaning, Calculated):
+        return (meaning,)
     if isinstance(meaning, Amount | Check | Which) and meaning.length is Length.FREE:
         return (meaning,)
     return ()

@@ -22,6 +22,7 @@ from torch import Tensor
 
 from cltp.llm.constrained.grammar import Grammar
 from cltp.llm.generation import Reply
+from tacgrasp.lessons.dialogue.calculations.calculated import calculated
 from tacgrasp.lessons.dialogue.conditions import check_of
 from tacgrasp.lessons.dialogue.families.catalogue import understand
 from tacgrasp.lessons.dialogue.meaning import (
@@ -129,7 +130,7 @@ def understood_by_grammar(question: str, before: str = "") -> ReadQuestion | Non
     if meaning is None and plain != question:
         return understood_by_grammar(plain, before)
     if meaning is None and not before:
-        meaning = asked_together(question)
+        meaning = asked_together(question) or calculated(question)
     if meaning is None:
         return None
     asked = asked_text(question, before)

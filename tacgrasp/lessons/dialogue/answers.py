@@ -14,6 +14,7 @@ from cltp.texts.captions import with_article
 from tacgrasp.lessons.dialogue.expression import Expression
 from tacgrasp.lessons.dialogue.facts import (
     ACTIONS,
+    FACT_OF,
     NOTHING_TOUCHES,
     REASONS,
     UNMEASURED,
@@ -27,6 +28,7 @@ from tacgrasp.lessons.dialogue.facts import (
 from tacgrasp.lessons.dialogue.meaning import (
     Amount,
     AnswerKind,
+    Calculated,
     Check,
     Description,
     Length,
@@ -40,7 +42,7 @@ from tacgrasp.lessons.dialogue.meaning import (
     names_of,
     truth_of,
 )
-from tacgrasp.lessons.dialogue.quantities import QUANTITIES, amount_text, number_in
+from tacgrasp.lessons.dialogue.quantities import QUANTITIES, amount_text, number_in, value_text
 from tacgrasp.lessons.dialogue.scene import AskedScene, Value
 
 OFF_TOPIC = "That is not about touch."
@@ -78,6 +80,8 @@ def answer(meaning: Meaning, scene: AskedScene) -> Answer:
             return _amount(meaning, scene)
         case Check():
             return _check(meaning, scene)
+        case Calculated():
+            return _calculated(meaning, scene)
         case Which():
             return _which(meaning, scene)
         case Several():
@@ -148,6 +152,28 @@ def _shown(asked: Check, scene: AskedScene) -> str:
     return f"{', '.join(first)} and {last}" if first else last
 
 
+def _calculated(asked: Calculated, scene: AskedScene) -> Answer:
+    kind = kind_of(asked)
+    value = Expression(asked.truth).evaluate(scene.values()).value
+    if asked.unit is not None:
+        text = value_text(float(value or 0.0), asked.unit)
+        return Answer(text=f"{text}.", kind=kind, value=number_in(text), unit=asked.unit)
+    if kind is AnswerKind.CHOICE:
+        return Answer(text=f"{capital(str(value))}.", kind=kind, value=value)
+    shown = [FACT_OF[name] for name in names_of(asked) if name in FACT_OF]
+    clauses = [fact(name, scene)[1] for name in shown]
+    yes = "Yes" if value else "No"
+    return Answer(text=f"{', '.join((yes, *clauses))}.", kind=kind, value=bool(value))
+
+
+def _calculated_clause(asked: Calculated, scene: AskedScene) -> str:
+    """What is calculated in short, beside other answers."""
+    value = Expression(asked.truth).evaluate(scene.values()).value
+    if asked.unit is not None:
+        return f"that is {value_text(float(value or 0.0), asked.unit)}"
+    return ("yes" if value else "no") if isinstance(value, bool) else str(value)
+
+
 def _which(asked: Which, scene: AskedScene) -> Answer:
     word = str(scene.values()[asked.name])
     short, clause = named(asked.name, word, scene)
@@ -165,6 +191,8 @@ def _several(asked: Several, scene: AskedScene) -> Answer:
     for part in asked.parts:
         if isinstance(part, Which):
             clause = named(part.name, str(scene.values()[part.name]), scene)[1]
+        elif isinstance(part, Calculated):
+            clause = _calculated_clause(part, scene)
         elif isinstance(part, Amount):
             clause = _amount_clause(part, scene)[1]
             clause = clause.replace("holds it", f"holds {part.of}") if part.of else clause

@@ -1,8 +1,8 @@
 """The truth of a question as an expression over a scene's names, evaluated without running code.
 
 An expression has names of ``tacgrasp.lessons.dialogue.scene``, numbers, words in quotes (or bare,
-where they are words of a class: ``shape == sphere``), ``+ - * / **``, comparisons, ``in`` and ``not in``
-a list, ``and or not``, ``a if c else b`` and the functions ``abs``, ``hypot``, ``min``, ``max`` and
+where they are words of a class: ``shape == sphere``), ``+ - * / **``, comparisons, ``in`` a list,
+``and or not``, ``a if c else b`` and the functions ``abs``, ``hypot``, ``min``, ``max`` and
 ``sqrt``. Nothing else is read. Words of depth and area have an order, so ``depth >= 'deep'`` is a
 comparison.
 """
@@ -106,6 +106,20 @@ class Expression:
         return ()
 
     @cached_property
+    def numbers(self) -> tuple[float, ...]:
+        """Its numbers, in their order."""
+        return tuple(
+            float(node.value)
+            for node in ast.walk(self._tree)
+            if isinstance(node, ast.Constant) and isinstance(node.value, (int, float))
+        )
+
+    @property
+    def is_quotient(self) -> bool:
+        """Whether something in it is divided."""
+        return any(isinstance(node, ast.Div) for node in ast.walk(self._tree))
+
+    @cached_property
     def choices(self) -> tuple[str, ...]:
         """The words of ``a if c else b`` where it is one between quoted words; else empty."""
 
@@ -133,7 +147,9 @@ class Expression:
             case ast.UnaryOp(op=ast.USub() | ast.UAdd() | ast.Not(), operand=operand):
                 parts = [operand]
             case ast.BinOp(op=ast.Pow(), right=right) if not _is_power(right):
-                raise ValueError(f"{self.text!r}: a truth's power must be a number from 0 to {MAX_POWER}")
+                raise ValueError(
+                    f"{self.text!r}: a truth's power must be a number from 0 to {MAX_POWER}"
+                )
             case ast.BinOp(left=left, op=op, right=right) if type(op) in _ARITHMETIC:
                 parts = [left, right]
             case ast.BoolOp(values=values):

@@ -56,6 +56,11 @@ UNMEASURED: Mapping[str, str] = {
 UNTOUCHED_NAMES = {*UNMEASURED, "contact", "gram_n"}
 """Names that have a meaning where nothing touches."""
 
+FACT_OF: Mapping[str, str] = {
+    quantity.truth: name for name, quantity in QUANTITIES.items() if quantity.truth.isidentifier()
+}
+"""The fact that tells each name of a scene, of those that are numbers."""
+
 _WORDS: Mapping[str, Mapping[str, str]] = {
     "side_x": {"left": "left of the middle", "right": "right of the middle"},
     "side_y": {"fingertip": "nearer to the fingertip", "palm": "nearer to the palm"},

@@ -77,6 +77,19 @@ class Check:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Calculated:
+    """A number, a yes or no, or a choice that follows from several quantities and numbers.
+
+    Attributes:
+        truth: Its expression; one between quoted words is a choice.
+        unit: Unit of a number, '' of a ratio; None for a yes or no, or a choice.
+    """
+
+    truth: str
+    unit: str | None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Which:
     """A word is asked for.
 
@@ -91,6 +104,10 @@ class Which:
     length: Length = Length.FREE
 
 
+Part = Amount | Check | Calculated | Which
+"""What can be asked together with others."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Several:
     """Several things are asked for at once.
@@ -99,7 +116,7 @@ class Several:
         parts: Each of them.
     """
 
-    parts: tuple[Amount | Check | Which, ...]
+    parts: tuple[Part, ...]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -139,7 +156,7 @@ class OffTopic:
     """Nothing about the contact."""
 
 
-Meaning = Amount | Check | Which | Several | Why | Description | Unknowable | OffTopic
+Meaning = Part | Several | Why | Description | Unknowable | OffTopic
 
 FACTS: Mapping[str, str] = {
     **{name: quantity.truth for name, quantity in QUANTITIES.items()},
@@ -178,6 +195,10 @@ def kind_of(meaning: Meaning) -> AnswerKind:
             return AnswerKind.NUMBER
         case Check():
             return AnswerKind.YES_NO
+        case Calculated(truth=truth, unit=unit):
+            if unit is not None:
+                return AnswerKind.NUMBER
+            return AnswerKind.CHOICE if Expression(truth).choices else AnswerKind.YES_NO
         case Which(is_open=is_open):
             return AnswerKind.TEXT if is_open else AnswerKind.CHOICE
         case Several() | Why() | Description():
@@ -197,6 +218,8 @@ def truth_of(meaning: Meaning) -> str:
             return f"{truth} - {less}" if less else truth
         case Check(condition=condition):
             return condition
+        case Calculated(truth=truth):
+            return truth
         case Which(name=name):
             return name
         case Several(parts=parts):

@@ -54,7 +54,9 @@ _ADDRESS = re.compile(
     r"(?:(?:ok(?:ay)?|so|well|right then|now then|hang on|hold on|wait|hey(?: \w+)?|hi(?: \w+)?|"
     r"hello(?: \w+)?|robot|um+|uh+|er+m?|sorry|excuse me|please|quick question|tell me|listen|look|"
     r"actually|by the way|good (?:morning|afternoon|evening)|just checking|just curious|"
-    r"one more thing|one more question|but|oh|yo|buddy|mate|my friend|dear \w+|(?:mister|mr) \w+)"
+    r"one more thing|one more question|(?:i|we) (?:would like|want|need|wish) to "
+    r"(?:confirm|check|verify|ask|be sure|make sure|know)|but|oh|yo|buddy|mate|my friend|"
+    r"dear \w+|(?:mister|mr) \w+)"
     r"\s*[,:;!.…–—-]+\s+)+",
     re.I,
 )
@@ -87,6 +89,9 @@ _POLITE = re.compile(
 )
 _PURPOSE = re.compile(
     r",? (?:just the (?:figure|number),? )?so (?:that )?(?:i|we) (?:may|can|could) .*$", re.I
+)
+_RIGHT = re.compile(
+    r"[,;–—-] (?:is|am) (?:it|that|this|i) (?:correct|right|true|so)(?=\s*[?.!]*$)", re.I
 )
 _CHOICE_TAG = re.compile(r"(?<=\w), (?:no|yes|right|correct)(?=[?.! ]*$)", re.I)
 _ADDED = re.compile(
@@ -138,6 +143,7 @@ def plainer(question: str) -> str:
     if opening := _ADDRESS.match(text):
         text = text[opening.end() :]
     text = _ADDED.sub("", _POLITE_VERB.sub("", text, count=1))
+    text = _RIGHT.sub(", right", text)
     text = _PURPOSE.sub("", _POLITE.sub("give me ", _THANKS.sub("", text), count=1))
     if tag := _TAG.search(text):
         text = _asked(text, tag)

@@ -229,6 +229,16 @@ def amount_text(
     return f"{converted:{sign}.{decimals}f} {unit}"
 
 
+def value_text(value: float, unit: str) -> str:
+    """A calculated value, given in mm, N, percent, mm² or g, as text in a unit; '' for a ratio."""
+    if unit == "%":
+        return f"{'-' if value < 0 else ''}{percent_text(abs(value))} %"
+    size = UNITS[unit].size if unit else 1.0
+    base = 0 if unit and UNITS[unit].dimension == "mass" else 2 if abs(value) >= 0.1 else 3
+    decimals = max(0, base + round(math.log10(size)))
+    return f"{round(value / size, decimals) + 0.0:.{decimals}f} {unit}".rstrip()
+
+
 def can_be_in(name: str, unit: str) -> bool:
     """Whether an answer can give a quantity in a unit.
 

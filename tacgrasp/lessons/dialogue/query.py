@@ -15,6 +15,8 @@
     why step.                           the reason of the advice; 'why both' with the advice,
                                         'why force' the force behind an answer, 'why felt' all
                                         numbers behind it
+    calculate 0.5 * limit_n in N.       a number by an expression; 'in 1' a ratio
+    calculate force_n > 0.5 * limit_n.  yes or no, or a choice, so; no model writes these
     describe.
     unknown price.                      touch can't know it
     other.                              it is not about touch
@@ -49,18 +51,20 @@ from tacgrasp.lessons.dialogue.conditions import (
 from tacgrasp.lessons.dialogue.meaning import (
     MASS_UNITS,
     Amount,
+    Calculated,
     Check,
     Description,
     Length,
     Meaning,
     OffTopic,
+    Part,
     Several,
     Unknowable,
     Which,
     Why,
 )
 from tacgrasp.lessons.dialogue.plain_words import plain_text
-from tacgrasp.lessons.dialogue.quantities import TIMES, can_be_in
+from tacgrasp.lessons.dialogue.quantities import TIMES, UNITS, can_be_in
 from tacgrasp.lessons.dialogue.subjects import SUBJECTS
 
 MOST_NUMBERS = 4
@@ -243,7 +247,7 @@ def read_query(query: str, numbers: Sequence[float] = ()) -> Meaning | None:
     parts = []
     for text in texts:
         part = _meaning(text, numbers, Length.FREE)
-        if not isinstance(part, Amount | Check | Which):
+        if not isinstance(part, Part):
             raise ValueError(f"{text!r} is not asked together with others")
         parts.append(part)
     return Several(parts=tuple(parts))
@@ -331,6 +335,8 @@ def _part(meaning: Meaning, numbers: Sequence[float]) -> str:
             return f"{'word' if is_open else 'choice'} {name}"
         case Check(test=test, denied=denied) if test:
             return f"check {'not ' if denied else ''}{_referred(test, numbers)}"
+        case Calculated(truth=truth, unit=unit):
+            return f"calculate {truth}" if unit is None else f"calculate {truth} in {unit or 1}"
         case Why():
             return f"why {next(name for name, why in _REASONS.items() if why == meaning)}"
         case Description():
@@ -380,6 +386,11 @@ def _meaning(text: str, numbers: Sequence[float], length: Length) -> Meaning:
             test = _REFERENCE.sub(lambda m: number_text(numbers[int(m[1]) - 1]), rest)
             is_denied = test.startswith("not ")
             return check_of(test.removeprefix("not "), denied=is_denied, length=length)
+        case "calculate":
+            truth, _, unit = rest.rpartition(" in ")
+            if truth and (unit in UNITS or unit == "1"):
+                return Calculated(truth=truth, unit=unit.removeprefix("1"))
+            return Calculated(truth=rest, unit=None)
         case "why" if rest in _REASONS:
             return _REASONS[rest]
         case "unknown" if rest in SUBJECTS:

@@ -78,12 +78,20 @@ def score_answer(text: str, row: QuestionRow, scene: AskedScene) -> AnswerScore:
 def dimension_of(truth: Expression) -> str:
     """What a number measures, by the first name of its truth; '' for a word.
 
-    One name over another of its dimension is a fraction, in percent.
+    A quotient of two names of one dimension is a ratio, and 100 of them, or of a name over a
+    number, percent. A mass times what a gram weighs is a force.
     """
     dimensions = [next(filter(None, map(_dimension_of_name, names)), "") for names in truth.divided]
-    if len(set(dimensions)) == 1 and dimensions[0]:
+    is_ratio = len(set(dimensions)) == 1 and bool(dimensions[0])
+    if 100 in truth.numbers and truth.is_quotient:
         return "fraction"
-    return next(filter(None, map(_dimension_of_name, truth.names)), "")
+    if is_ratio:
+        return "ratio"
+    first = next(filter(None, map(_dimension_of_name, truth.names)), "")
+    is_weight = first == "mass" and any(
+        str(n).strip("0.").startswith(("98", "9.8")) for n in truth.numbers
+    )
+    return "force" if is_weight else first
 
 
 def _dimension_of_name(name: str) -> str:
@@ -176,8 +184,10 @@ def _converted(
     factors = {(dimension, dimension): 1.0}
     factors["mass", "force"] = GRAVITY_N_PER_G
     factors["area", "fraction"] = 100 / area_mm2
+    factors["fraction", "ratio"] = 0.01
+    factors["", "ratio"] = 1.0
     return [
         number.value * factors[number.dimension, dimension]
         for number in numbers
-        if (number.dimension, dimension) in factors and number.dimension
+        if (number.dimension, dimension) in factors and (number.dimension or dimension)
     ]

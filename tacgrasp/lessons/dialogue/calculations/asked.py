@@ -1,0 +1,163 @@
+"""A question in plain words, with its numbers and what its pronouns stand for.
+
+Not here: what it asks (``tacgrasp.lessons.dialogue.calculations.calculated``).
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+from tacgrasp.lessons.dialogue.calculations.quantity_names import UNIT, is_band, unit_of
+from tacgrasp.lessons.dialogue.calculations.terms import Term, TermReader
+from tacgrasp.lessons.dialogue.conditions import number_text
+from tacgrasp.lessons.dialogue.plainer import plainer
+from tacgrasp.lessons.dialogue.query import asked_text
+
+_USUAL: Mapping[str, tuple[str, str]] = {
+    "force": ("force_n", "N"),
+    "length": ("depth_mm", "mm"),
+    "mass": ("mass_g", "g"),
+    "fraction": ("area_percent", "%"),
+}
+"""What a pronoun stands for beside a dimension ('how far below 2 N are we'), and its unit."""
+
+_ITS = re.compile(r"\bits\b", re.I)
+_PRONOUN = re.compile(
+    r"(?:(?:we|it|this|that|i|you|they|these|those|one|he|she|the (?:robot|gripper|contact|object|"
+    r"thing|result|reading|value|touch|fingers?)|what you feel)(?: (?:now|pressing|gripping|"
+    r"here))?)"
+)
+_GRAVITY = re.compile(
+    r"^(?:with|using|at|for|taking) (?:a |the )?(?:g |gravity )?(?:of )?#\d+ m\b \S+ "
+)
+_LEADING = re.compile(
+    r"^(?:(?:please|kindly|tell me|give me|state|say|report|compute|calculate|work out|determine|"
+    r"now|well|ok|then|and|so|roughly|approximately|exactly|(?:i |we )?(?:want|need|would "
+    r"like) to know|"
+    r"let me know|i ask|(?:can|could|would|will) you (?:tell me|say|work out|calculate)) )+"
+)
+_IN_UNIT = re.compile(
+    rf"(?: (?:measured|expressed|given|said|stated))? (?:in|as) (?:plain |whole )?({UNIT})(?= |$)"
+)
+_MANY = re.compile(
+    rf"\b(?:how many(?: (?:more|further|additional|extra))?|what|which|how much) "
+    rf"({UNIT})\b(?! of\b)"
+)
+_AS_RATIO = re.compile(
+    r"(?: (?:expressed )?)?as (?:a )?(?:plain |simple |decimal |bare )?(?:fraction|number|ratio)"
+    r"(?: between #\d+ and (?:one|#\d+))?(?= |$) ?"
+)
+_AS_PERCENTAGE = re.compile(r" (?:in percent|as (?:a )?percentages?)(?= |$)")
+_OR_ZERO = re.compile(
+    r" (?:(?:say|give|answer|report|put|use|write) )?(#\d+) (?:if|when|where) .+$"
+)
+_SIGNED = re.compile(
+    r" (?:(?:use|give|say|put|with|write) )?(?:an? |it )?(?:minus|negative|plus)(?: sign)? "
+    r"(?:if|for|when|meaning|means) .+$| with (?:a |the )?sign$"
+)
+_UNSIGNED = re.compile(
+    r"^(?:ignoring|without|regardless of|disregarding|leaving out|dropping) (?:the |its )?"
+    r"(?:sign|direction) | (?:ignoring|without|regardless of|disregarding|no matter) (?:the |its )?"
+    r"(?:sign|direction|which)$| never mind which(?: way)?$| on either side$"
+)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AskedWords:
+    """A question.
+
+    Attributes:
+        words: Its plain words, without what they say of unit and sign; numbers are #1, #2, ...
+        numbers: Its numbers.
+        unit: Symbol of the unit that is asked for; '' where none is.
+        is_ratio: Whether a share is asked for as a plain number.
+        is_unsigned: Whether the sign is to be left out.
+        has_floor: Whether what is below zero counts as zero.
+        subject: What its pronouns stand for; None for the usual quantity of a dimension.
+    """
+
+    words: str
+    numbers: tuple[float, ...]
+    unit: str = ""
+    is_ratio: bool = False
+    is_unsigned: bool = False
+    has_floor: bool = False
+    subject: Term | None = None
+
+    def term(self, words: str, beside: Term | None = None) -> Term | None:
+        """The meaning of a noun phrase, or of a pronoun beside another term; None of others."""
+        if not _PRONOUN.fullmatch(words):
+            return TermReader(self.numbers).read(words)
+        if self.subject is not None:
+            return self.subject
+        if beside is None or beside.dimension not in _USUAL:
+            return None
+        return usual(beside.dimension)
+
+    def bound(self, words: str, *, is_above: bool) -> Term | None:
+        """As ``term``; above the band is above its upper end, below it below its lower one."""
+        if is_band(words):
+            end = "band_high_n" if is_above else "band_low_n"
+            return Term(expression=end, dimension="force", words=words)
+        return self.term(words)
+
+    def about(self, subject: Term, words: str) -> AskedWords:
+        """The rest of the question, whose pronouns stand for a term."""
+        return replace(self, words=words, subject=subject)
+
+    def said(self, words: str) -> str:
+        """Plain words as an answer repeats them, with the numbers in place."""
+
+        def number(match: re.Match[str]) -> str:
+            value = number_text(self.numbers[int(match[1]) - 1])
+            if value == "0" and not match[2]:
+                return "zero"
+            return f"{value} {unit_of(match[2])}" if match[2] else value
+
+        return re.sub(rf"#(\d+)(?: ({UNIT})\b)?", number, words)
+
+
+def usual(dimension: str) -> Term:
+    """The felt quantity that a dimension makes think of."""
+    return Term(expression=_USUAL[dimension][0], dimension=dimension, words="it")
+
+
+def usual_unit(dimension: str) -> str:
+    """Unit in which answers give a dimension; '' of a ratio."""
+    return _USUAL[dimension][1] if dimension in _USUAL else ""
+
+
+def asked_words(question: str) -> AskedWords:
+    """A question in plain words, with what it says of unit and sign taken out."""
+    asked = asked_text(plainer(_ITS.sub("the", question)))
+    places = iter(range(1, len(asked.numbers) + 1))
+    words = re.sub("#", lambda _: f"#{next(places, 0)}", asked.words)
+    words = _LEADING.sub("", _GRAVITY.sub("", words))
+    zero = _OR_ZERO.search(words)
+    has_floor = zero is not None and asked.numbers[int(zero[1][1:]) - 1] == 0
+    if zero is not None and has_floor:
+        words = words[: zero.start()]
+    is_unsigned = _UNSIGNED.search(words) is not None
+    words = _SIGNED.sub("", _UNSIGNED.sub("", words))
+    is_ratio = _AS_RATIO.search(words) is not None and _AS_PERCENTAGE.search(words) is None
+    unit, words = _unit(_AS_RATIO.sub("", words) if is_ratio else words)
+    return AskedWords(
+        words=" ".join(words.split()),
+        numbers=asked.numbers,
+        unit=unit,
+        is_ratio=is_ratio,
+        is_unsigned=is_unsigned,
+        has_floor=has_floor,
+    )
+
+
+def _unit(words: str) -> tuple[str, str]:
+    """The unit that is asked for, and the words without it."""
+    if many := _MANY.search(words):
+        return unit_of(many[1]), f"{words[: many.start()]}how much{words[many.end() :]}"
+    found = list(_IN_UNIT.finditer(words))
+    if not found:
+        return "", words
+    return unit_of(found[-1][1]), f"{words[: found[-1].start()]}{words[found[-1].end() :]}"

@@ -1,0 +1,28 @@
+"""The meaning of a question that calculates with what is felt and given."""
+
+from __future__ import annotations
+
+from tacgrasp.lessons.dialogue.calculations.amounts import calculated_amount
+from tacgrasp.lessons.dialogue.calculations.asked import asked_words
+from tacgrasp.lessons.dialogue.calculations.checks import calculated_check
+from tacgrasp.lessons.dialogue.calculations.choices import calculated_choice
+from tacgrasp.lessons.dialogue.calculations.suppositions import supposed
+from tacgrasp.lessons.dialogue.expression import Expression
+from tacgrasp.lessons.dialogue.meaning import Calculated
+
+
+def calculated(question: str) -> Calculated | None:
+    """What a question asks to calculate; None where it asks for nothing of the kind."""
+    asked = asked_words(question)
+    for reader in (supposed, calculated_choice, calculated_amount, calculated_check):
+        if (meaning := reader(asked)) and _is_sound(meaning.truth):
+            return meaning
+    return None
+
+
+def _is_sound(truth: str) -> bool:
+    """Whether an expression may be evaluated: not too long, nor without a quantity."""
+    try:
+        return bool(Expression(truth).names)
+    except ValueError:
+        return False

@@ -1,0 +1,258 @@
+"""Noun phrases that mean a quantity, a number, or something calculated of these.
+
+    the upper edge of the band                  band_high_n
+    half of the limit                           0.5 * limit_n
+    the force minus the object's weight         force_n - 0.00980665 * mass_g
+    the difference between x and 2 mm           abs(x_mm - 2)
+
+Not here: questions (``tacgrasp.lessons.dialogue.calculations.calculated``).
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+
+from tacgrasp.lessons.dialogue.calculations.quantity_names import NAMED, UNIT, WEIGHT, unit_of
+from tacgrasp.lessons.dialogue.conditions import number_text
+from tacgrasp.lessons.dialogue.quantities import GRAVITY_N_PER_G, UNITS
+
+PLAIN, UNSAID = "ratio", "unsaid"
+"""Dimensions of a ratio, and of a number without a unit, which has that of what stands beside."""
+
+MOST_WORDS = 24
+"""Longest term [words]: a longer one is a sentence."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Term:
+    """A noun phrase's meaning.
+
+    Attributes:
+        expression: Its value (``tacgrasp.lessons.dialogue.expression``), in mm, N, percent, mm² or
+            g.
+        dimension: What it measures: that of a unit, ``PLAIN`` or ``UNSAID``.
+        words: The phrase in plain words.
+        is_sum: Whether the expression needs brackets beside another operator.
+        is_weight: Whether grams were called a weight, which has newtons too.
+    """
+
+    expression: str
+    dimension: str
+    words: str
+    is_sum: bool = False
+    is_weight: bool = False
+
+    @property
+    def factor(self) -> str:
+        """The expression as it stands beside another operator."""
+        return f"({self.expression})" if self.is_sum else self.expression
+
+    @property
+    def has_quantity(self) -> bool:
+        """Whether it has more than numbers."""
+        return re.search(r"[a-z]{2}", self.expression) is not None
+
+
+_MULTIPLES: Mapping[str, str] = {
+    r"(?:one )?half|half of": "0.5",
+    r"twice|double|two times": "2",
+    r"thrice|triple|three times": "3",
+    r"four times|quadruple": "4",
+    r"(?:a |one )?third": "1 / 3",
+    r"two thirds": "2 / 3",
+    r"(?:a |one )?quarter": "0.25",
+    r"three quarters": "0.75",
+    r"(?:a |one )?fifth": "0.2",
+    r"(?:a |one )?tenth": "0.1",
+}
+_ARTICLE = re.compile(
+    r"(?:(?:the|our|your|its|this|that|an?|my|current|currently|present|presently|actual|measured|"
+    r"felt|momentary|real|whole|total|overall|existing|latest|exact|full|size of|value of|"
+    r"amount of|level of|figure for|reading of|contact's|object's|of) )+(?=\S)"
+)
+_TRAILING = re.compile(
+    r"(?: (?:right now|just now|now|currently|presently|at present|at the moment|here|"
+    r"instead|today|"
+    r"itself|as felt|as measured|in size|value|figure|reading|"
+    r"(?:that )?(?:you|we) (?:feel|have|measure|read|see)(?: (?:now|there|here))?))+$"
+)
+_NUMBER = re.compile(
+    rf"(?:(?:depth|force|area|mass|load|grip|weight) of )?(#\d+)(?: ({UNIT})(?: (?:of "
+    rf")?(?:force|deep|depth))?)?"
+)
+
+_OPERATIONS: Sequence[tuple[str, re.Pattern[str]]] = tuple(
+    (name, re.compile(pattern))
+    for name, pattern in (
+        ("between", r"(?:difference|gap|distance|spread|room) between (.+) and (.+)"),
+        ("between", r"difference (?:of|from) (.+) (?:and|to|from) (.+)"),
+        ("minus", r"(.+) (?:minus|less|reduced by|lowered by|diminished by) (.+)"),
+        ("plus", r"sum of (.+) and (.+)"),
+        ("plus", r"(.+) (?:plus|increased by|raised by|together with) (.+)"),
+        ("plus", r"(.+) and (.+) (?:together|combined|added|taken together)"),
+        ("ratio", r"(?:ratio|quotient) (?:of|between) (.+) (?:to|and) (.+)"),
+        ("ratio", r"(.+) divided by (.+)"),
+        ("mean", r"(?:mean|average|midpoint) (?:of|between) (.+) and (.+)"),
+        ("min", r"(?:smaller|lesser|lower|least) (?:one )?of (.+) and (.+)"),
+        ("max", r"(?:larger|greater|higher|bigger|most) (?:one )?of (.+) and (.+)"),
+        ("more", r"(.+) (?:more|above|over|higher|deeper|greater)(?: than)? (.+)"),
+        ("less", r"(.+) (?:less|below|under|lower|short of|shallower)(?: than)? (.+)"),
+    )
+)
+_PERCENT_OF = re.compile(r"(#\d+) percent (?:of )?(.+)")
+_TIMES = re.compile(r"(#\d+) (?:times|fold) (.+)")
+_MULTIPLE = re.compile(rf"({'|'.join(_MULTIPLES)}) (?:of )?(.+)")
+
+
+class TermReader:
+    """Reads terms of one question.
+
+    Args:
+        numbers: The question's numbers, which its plain words name #1, #2, ...
+    """
+
+    def __init__(self, numbers: Sequence[float]) -> None:
+        self._numbers = tuple(numbers)
+
+    def read(self, words: str) -> Term | None:
+        """The meaning of a noun phrase in plain words; None where it has none."""
+        return _read(_TRAILING.sub("", words.strip()), self._numbers)
+
+
+@lru_cache(maxsize=4096)
+def _read(words: str, numbers: tuple[float, ...]) -> Term | None:
+    if not words or words.count(" ") >= MOST_WORDS:
+        return None
+    for reader in (_number, _quantity, _operation, _multiple):
+        if found := reader(words, numbers):
+            return found
+    bare = _ARTICLE.sub("", words, count=1) if _ARTICLE.match(words) else words
+    return _read(bare, numbers) if bare != words else None
+
+
+def _number(words: str, numbers: tuple[float, ...]) -> Term | None:
+    if (found := _NUMBER.fullmatch(words)) is None:
+        return None
+    number = numbers[int(found[1][1:]) - 1]
+    if found[2] is None:
+        return Term(expression=number_text(number), dimension=UNSAID, words=words)
+    unit = UNITS[unit_of(found[2])]
+    return Term(expression=number_text(number * unit.size), dimension=unit.dimension, words=words)
+
+
+def _quantity(words: str, _: tuple[float, ...]) -> Term | None:
+    if WEIGHT.fullmatch(words):
+        return Term(expression="mass_g", dimension="mass", words=words, is_weight=True)
+    for pattern, expression, dimension in NAMED:
+        if pattern.fullmatch(words):
+            is_sum = re.search(r" [-+] ", re.sub(r"\(.*?\)", "", expression)) is not None
+            return Term(expression=expression, dimension=dimension, words=words, is_sum=is_sum)
+    return None
+
+
+def _operation(words: str, numbers: tuple[float, ...]) -> Term | None:
+    for name, pattern in _OPERATIONS:
+        if (found := pattern.fullmatch(words)) is None:
+            continue
+        a, b = (_read(_TRAILING.sub("", part), numbers) for part in found.groups())
+        if a and b and (made := _made(name, a, b, words)):
+            return made
+    return None
+
+
+def _made(name: str, a: Term, b: Term, words: str) -> Term | None:
+    """What an operation makes of two terms; None where their dimensions do not fit."""
+    if b.dimension == "fraction" and a.dimension != "fraction" and name in ("plus", "minus"):
+        if b.has_quantity:
+            return None
+        sign = "+" if name == "plus" else "-"
+        share = f"(1 {sign} {b.factor} / 100)"
+        return Term(expression=f"{share} * {a.factor}", dimension=a.dimension, words=words)
+    if name == "ratio" and b.dimension == UNSAID:
+        return Term(expression=f"{a.factor} / {b.factor}", dimension=a.dimension, words=words)
+    pair = alike(a, b)
+    if pair is None:
+        return None
+    a, b = pair
+    if name in ("more", "less") and a.has_quantity:
+        return None
+    expression = {
+        "between": f"abs({a.expression} - {b.factor})",
+        "minus": f"{a.expression} - {b.factor}",
+        "plus": f"{a.expression} + {b.expression}",
+        "more": f"{b.expression} + {a.expression}",
+        "less": f"{b.expression} - {a.factor}",
+        "ratio": f"{a.factor} / {b.factor}",
+        "mean": f"({a.expression} + {b.expression}) / 2",
+        "min": f"min({a.expression}, {b.expression})",
+        "max": f"max({a.expression}, {b.expression})",
+    }[name]
+    return Term(
+        expression=expression,
+        dimension=PLAIN if name == "ratio" else a.dimension,
+        words=words,
+        is_sum=name in ("minus", "plus", "more", "less"),
+    )
+
+
+def alike(a: Term, b: Term) -> tuple[Term, Term] | None:
+    """Two terms in one dimension; None where they have none in common.
+
+    A number without a unit has that of the other, a mass beside a force is its weight, and a part
+    of the pad beside square millimetres is its area.
+    """
+    if a.dimension == b.dimension:
+        return None if a.dimension == UNSAID else (a, b)
+    if a.dimension == UNSAID:
+        return _with_dimension(a, b.dimension), b
+    if b.dimension == UNSAID:
+        return a, _with_dimension(b, a.dimension)
+    if {a.dimension, b.dimension} == {"force", "mass"}:
+        return in_newtons(a), in_newtons(b)
+    if {a.dimension, b.dimension} == {"area", "fraction"}:
+        return in_mm2(a), in_mm2(b)
+    return None
+
+
+def in_newtons(term: Term) -> Term:
+    """A force as it is, and a mass as its weight."""
+    if term.dimension != "mass":
+        return term
+    expression = f"{GRAVITY_N_PER_G:g} * {term.factor}"
+    return Term(expression=expression, dimension="force", words=term.words, is_weight=True)
+
+
+def in_mm2(term: Term) -> Term:
+    """An area as it is, and a part of the pad as its area."""
+    if term.dimension != "fraction":
+        return term
+    expression = term.expression.replace("area_percent", "area_mm2")
+    return Term(expression=expression, dimension="area", words=term.words, is_sum=term.is_sum)
+
+
+def _with_dimension(term: Term, dimension: str) -> Term:
+    return Term(expression=term.expression, dimension=dimension, words=term.words)
+
+
+def _multiple(words: str, numbers: tuple[float, ...]) -> Term | None:
+    factor, rest = "", ""
+    if found := _PERCENT_OF.fullmatch(words):
+        factor, rest = f"{number_text(numbers[int(found[1][1:]) - 1] / 100)}", found[2]
+    elif found := _TIMES.fullmatch(words):
+        factor, rest = number_text(numbers[int(found[1][1:]) - 1]), found[2]
+    elif found := _MULTIPLE.fullmatch(words):
+        said = found[1]
+        factor = next(value for name, value in _MULTIPLES.items() if re.fullmatch(name, said))
+        rest = found[2]
+    term = _read(rest, numbers) if rest else None
+    if term is None:
+        return None
+    return Term(
+        expression=f"{factor} * {term.factor}",
+        dimension=term.dimension,
+        words=words,
+        is_weight=term.is_weight,
+    )

@@ -1,0 +1,170 @@
+import pytest
+
+from tacgrasp.lessons.dialogue.answers import answer
+from tacgrasp.lessons.dialogue.calculations.calculated import calculated
+from tacgrasp.lessons.dialogue.expression import Expression
+from tacgrasp.lessons.dialogue.meaning import AnswerKind, kind_of
+from tacgrasp.lessons.dialogue.query import query_of, read_query
+from tests.fakes.question_scenes import FREE, HELD, UNTOUCHED
+
+NUMBERS = [
+    ("What is 40 % of the limit?", "0.4 * limit_n", "N"),
+    ("Half the limit, in millinewtons?", "0.5 * limit_n", "mN"),
+    ("What percentage of 2 mm is the depth?", "100 * depth_mm / 2", "%"),
+    (
+        "The lower end of the band is how many percent of the limit?",
+        "100 * band_low_n / limit_n",
+        "%",
+    ),
+    ("How much of the limit is still unused?", "100 - 100 * force_n / limit_n", "%"),
+    ("How much is missing until the depth reaches 1 mm?", "1 - depth_mm", "mm"),
+    ("How many newtons are we short of the limit?", "limit_n - force_n", "N"),
+    ("By how much does the limit exceed the force?", "limit_n - force_n", "N"),
+    ("How far above the band is the force?", "force_n - band_high_n", "N"),
+    ("How far below the band is the force?", "band_low_n - force_n", "N"),
+    ("How far is the depth from 0.5 mm?", "abs(depth_mm - 0.5)", "mm"),
+    ("How many N is it below 2 N? Say zero if it is not.", "max(0, 2 - force_n)", "N"),
+    ("Subtract the force from 5 N.", "5 - force_n", "N"),
+    ("Add 0.2 mm to the depth: what do you get?", "depth_mm + 0.2", "mm"),
+    ("Divide the limit by the force.", "limit_n / force_n", ""),
+    ("What is the object's weight in newtons?", "0.00980665 * mass_g", "N"),
+    ("What is the force minus the weight of the object?", "force_n - 0.00980665 * mass_g", "N"),
+    (
+        "How far is the contact from the point x = 3 mm, y = -2 mm?",
+        "hypot(x_mm - 3, y_mm - -2)",
+        "mm",
+    ),
+    ("If the force dropped by 20 %, how much would remain?", "(1 - 20 / 100) * force_n", "N"),
+    ("What would the force be if it rose by 10 percent?", "(1 + 10 / 100) * force_n", "N"),
+    ("How far below the limit would we be if the force doubled?", "limit_n - 2 * force_n", "N"),
+    ("If I put a 50 g label on the object, what would the total mass be?", "mass_g + 50", "g"),
+    (
+        "If two fingers share the weight equally, how many N does each carry?",
+        "0.00980665 * mass_g / 2",
+        "N",
+    ),
+]
+CHECKS = [
+    ("Are we within 0.2 N of the limit?", "abs(force_n - limit_n) <= 0.2"),
+    ("Is the force more than two thirds of the limit?", "force_n > 0.667 * limit_n"),
+    ("Is the limit at least twice the force?", "limit_n >= 2 * force_n"),
+    ("Is the weight of the object greater than the force?", "0.00980665 * mass_g > force_n"),
+    ("Are x and y both above zero?", "x_mm > 0 and y_mm > 0"),
+    (
+        "Does at least one hold: force above 8 N, or depth above 1 mm?",
+        "(force_n > 8) or (depth_mm > 1)",
+    ),
+    (
+        "Is the area over 10 % and the depth below 0.5 mm?",
+        "(area_percent > 10) and (depth_mm < 0.5)",
+    ),
+    ("Do we have more than half of the limit in reserve?", "limit_n - force_n > 0.5 * limit_n"),
+    ("If the force doubled, would it exceed the limit?", "2 * force_n > limit_n"),
+    ("If the limit were halved, would the present force violate it?", "force_n > 0.5 * limit_n"),
+    ("Suppose you pushed 1 N harder: would we be above the band?", "force_n + 1 > band_high_n"),
+    ("Would another 0.5 N put us over the limit?", "force_n + 0.5 > limit_n"),
+    ("If the force rose to 2 N, would it exceed the limit?", "2 > limit_n"),
+    (
+        "If you pressed 0.3 N softer, would we still be within the band?",
+        "band_low_n <= (force_n - 0.3) <= band_high_n",
+    ),
+    ("Is the area above 30 mm²?", "area_mm2 > 30"),
+]
+CHOICES = [
+    ("Which is greater, the force or the limit?", "'force' if force_n > limit_n else 'limit'"),
+    (
+        "Is the force nearer to 1 N or to 2 N?",
+        "'1 N' if abs(force_n - 1) < abs(force_n - 2) else '2 N'",
+    ),
+    ("Over or under 4 N?", "'over' if force_n > 4 else 'under'"),
+    (
+        "To get into the band, should I loosen, hold or tighten?",
+        "'tighten' if force_n < band_low_n else 'loosen' if force_n > band_high_n else 'hold'",
+    ),
+    (
+        "Which end of the band is the force nearer to, the lower or the upper?",
+        "'lower' if abs(force_n - band_low_n) < abs(force_n - band_high_n) else 'upper'",
+    ),
+]
+
+
+@pytest.mark.parametrize(("question", "truth", "unit"), NUMBERS)
+def test_a_number_is_calculated_as_it_is_asked(question, truth, unit):
+    meaning = calculated(question)
+    assert meaning is not None
+    assert (meaning.truth, meaning.unit) == (truth, unit)
+    assert kind_of(meaning) is AnswerKind.NUMBER
+
+
+@pytest.mark.parametrize(("question", "truth"), CHECKS)
+def test_a_condition_is_calculated_as_it_is_asked(question, truth):
+    meaning = calculated(question)
+    assert meaning is not None
+    assert (meaning.truth, meaning.unit) == (truth, None)
+    assert kind_of(meaning) is AnswerKind.YES_NO
+
+
+@pytest.mark.parametrize(("question", "truth"), CHOICES)
+def test_a_choice_is_calculated_as_it_is_asked(question, truth):
+    meaning = calculated(question)
+    assert meaning is not None
+    assert meaning.truth == truth
+    assert kind_of(meaning) is AnswerKind.CHOICE
+
+
+@pytest.mark.parametrize(
+    "question",
+    [
+        "How deep is it?",
+        "What is the force?",
+        "What shape is it?",
+        "Is it round?",
+        "Is it safe to lift?",
+        "What percentage of the price is tax?",
+        "Is the price above 3 N?",
+        "If it rains, will the force change?",
+        "Is 2 more than 1?",
+        "Subtract 2 N from 5 N.",
+        "How far is the moon from the earth?",
+        "Is the depth more than the force?",
+        "Which is greater, 2 N or 1 N?",
+        "",
+    ],
+)
+def test_what_calculates_nothing_is_left_to_others(question):
+    assert calculated(question) is None
+
+
+@pytest.mark.parametrize("question", [row[0] for row in (*NUMBERS, *CHECKS, *CHOICES)])
+def test_a_calculation_comes_back_from_its_query(question):
+    meaning = calculated(question)
+    assert meaning is not None
+    assert read_query(query_of(meaning)) == meaning
+
+
+@pytest.mark.parametrize(
+    ("question", "text"),
+    [
+        ("Subtract the force from 5 N.", "4.17 N."),
+        ("How many mN is the force short of the limit?", "470 mN."),
+        ("What percentage of 2 mm is the depth?", "9.5 %."),
+        ("Divide the limit by the force.", "1.57."),
+        ("Is the limit at least twice the force?", "No, the limit is 1.30 N, the force is 0.83 N."),
+        ("Which is greater, the force or the limit?", "Limit."),
+    ],
+)
+def test_a_calculation_is_answered(question, text):
+    assert answer(calculated(question), HELD).text == text
+
+
+def test_what_nobody_gave_or_nothing_touches_is_said():
+    without = answer(calculated("What is 40 % of the limit?"), FREE)
+    assert (without.decidable, without.text) == (False, "I can't say: no limit is given.")
+    assert "Nothing touches" in answer(calculated("Subtract the force from 5 N."), UNTOUCHED).text
+
+
+def test_every_truth_can_be_evaluated():
+    values = HELD.values()
+    rows = [truth for _, truth, _ in NUMBERS] + [truth for _, truth in CHECKS + CHOICES]
+    for truth in rows:
+        Expression(truth).evaluate({**values, "mass_g": 30.0})
