@@ -67,11 +67,12 @@ _NOR = re.compile(r",? nor (?:is it )?|, ", re.I)
 _OR = re.compile(r",? or (?:is it )?", re.I)
 """What joins conditions of which one is enough."""
 
+_EITHER = re.compile(r"\beither (?=.* or )", re.I)
 _NOT_EITHER = re.compile(r"\b(?:and|not|neither|or not)\b|n['’]t\b", re.I)
 
 REQUEST = re.compile(
     r"^(?:(?:could|can|would|will) you )?(?:please |kindly )?(?:give|tell|note|state|report|name|"
-    r"list|enumerate|specify|show|measure|read|write|send|log|record|quote|describe)"
+    r"list|enumerate|specify|show|measure|read|write|send|log|record|quote|describe|summari[sz]e)"
     r"(?: down| out| off)?(?: (?:me|us))?(?: for the \w+)?[ :,]+|"
     r"^(?:(?:could|can|may) (?:i|we) (?:have|get|see)|(?:i|we) (?:need|want|would like)|let "
     r"me have) ",
@@ -82,7 +83,9 @@ REQUEST = re.compile(
 _COUNTED = re.compile(
     r"^(?:(?:the|these|just|only) )?(?:\d|two|three|four|five|several|a few) (?:things|items|"
     r"figures|values|"
-    r"numbers|readings|words|answers|facts|entries)\b[^:,]{0,25}(?:, please)?[:,] *",
+    r"numbers|readings|words|answers|facts|entries)\b[^:,]{0,25}(?:, please)?[:,] *|"
+    r"^(?:(?:give|tell|send) (?:us|me) )?(?:the lot|all of it|everything): *|^(?:quick |"
+    r"short |brief |full )?(?:status|summary|report)(?: please)?: *",
     re.I,
 )
 """'Three items for the log, please: ...'"""
@@ -97,7 +100,8 @@ _AT_LENGTH = re.compile(
 
 _LISTED = re.compile(
     r",? (?:(?:please|both|all|all three|each)(?: (?:figures|numbers|values|of (?:them|"
-    r"these)))?|nothing else|go|"
+    r"these)))?|nothing else|go|side by side|(?:and )?keep it (?:short|brief)|be brief|"
+    r"briefly|in that order|"
     r"of what (?:you|we) feel|for (?:my|our|the) \w+)(?=[.?!,]*$)",
     re.I,
 )
@@ -115,6 +119,31 @@ _HOW_MUCH = re.compile(
     r"\bhow much (?=(?:force|area|depth|pressure)(?: in \w+)?(?:,|;|[?.!]*$| and\b))", re.I
 )
 """'How deep, how much force': a noun in a list."""
+
+_INDIRECT = (
+    (
+        r"\b(?:with |under |at )?(?:what|which) (shape|texture|surface|force|depth|area|position)"
+        r"(?: (?:you|we) (?:feel|sense|measure|see)| it (?:is|has)| there is)?(?=,|;|[?.!]*$|"
+        r" and\b| in \w+)",
+        r"\1",
+    ),
+    (
+        r"\b(force|limit|band|depth|area|mass) (?:that |which )?(?:we|you|i) (?:have|must|"
+        r"should|can|feel|keep|are)"
+        r"(?: \w+){0,2}(?=,|;|[?.!]*$| and\b)",
+        r"\1",
+    ),
+    (r"\bhow deep (?:it is|it goes|it sits)\b", "depth"),
+    (
+        r"\bhow (?:strong|hard|firm|firmly|strongly) (?:it is (?:pressed|held|gripped)|it "
+        r"presses|it is)\b",
+        "force",
+    ),
+    (r"\bwhere (?:it is|it sits|it lies|the contact is)\b", "position"),
+    (r"\bhow (?:large|big) (?:the (?:area|contact|patch) is|it is)\b", "area"),
+    (r"\b(?:how|what) the surface (?:feels|is)(?: like)?\b", "texture"),
+)
+"""Parts of 'tell me how deep it is and with what force', as the nouns that they ask for."""
 
 _LOW_AND_HIGH = "lower end of the band and upper end of the band"
 
@@ -134,6 +163,8 @@ def joined(question: str, most: int = MOST_JOINED) -> tuple[Part, ...]:
     """The meanings of at most so many joined wordings of the grammar; none where it lacks one."""
     question = _COUNTED.sub("", REQUEST.sub("", _AT_LENGTH.sub(" ", question).strip(), count=1))
     question = _HOW_MUCH.sub("", _BOTH_ENDS.sub(_LOW_AND_HIGH, question))
+    for pattern, noun in _INDIRECT:
+        question = re.sub(pattern, noun, question, flags=re.I)
     while (shorter := _LISTED.sub("", question)) != question:
         question = shorter
     joints = list(JOINT.finditer(question))
@@ -173,8 +204,16 @@ def _neither(question: str) -> tuple[Check, ...]:
     return tuple(check_of(check.test, denied=True) for check in checks)
 
 
-def _either(question: str) -> tuple[Check, ...]:
-    """The parts of 'is it rough or deep'; none of words of one kind, which are a choice."""
+def either_of(question: str) -> Meaning | None:
+    """What 'is it either a ring or a disc' means: whether it is one of them; None of others."""
+    if _EITHER.search(question) is None:
+        return None
+    parts = _either(_EITHER.sub("", question), of_one_kind=True)
+    return together(parts) if parts else None
+
+
+def _either(question: str, *, of_one_kind: bool = False) -> tuple[Check, ...]:
+    """The parts of 'is it rough or deep'; else none of words of one kind, which are a choice."""
     first, *others = _OR.split(question)
     if not is_either(question) or len(others) >= MOST_JOINED:
         return ()
@@ -187,7 +226,7 @@ def _either(question: str) -> tuple[Check, ...]:
         return ()
     kinds = {check.shows for check in checks}  # 'left' and 'right' are of one kind
     are_compared = all(re.search(r"\d", check.test) for check in checks)
-    return tuple(checks) if len(kinds) > 1 or are_compared else ()
+    return tuple(checks) if len(kinds) > 1 or are_compared or of_one_kind else ()
 
 
 def _same_subject(question: str, joint: re.Match[str], rest: str) -> Iterator[str]:

@@ -43,8 +43,12 @@ _JOINT = re.compile(
 _LIST = re.compile(r"[^,]+(?:, *(?:\S+ ?){1,4})+")
 """'Shape, depth, force in grams?'."""
 
+_SENTENCE = re.compile(r"[^.!?]+(?:[.](?=\d)[^.!?]*)*[.!?]*")
+
 _CALLED_FALSE = re.compile(
-    r"(?:(?:is|was|would) it (?:be )?(?:(?:false|untrue|wrong|incorrect|inaccurate|mistaken)|"
+    r"(?:would (?:i|we|you) be (?:wrong|mistaken|incorrect) (?:to (?:say|claim|assume|think|state)|"
+    r"in (?:saying|thinking|assuming))(?: that)?|(?:is|was|would) it (?:be )?(?:(?:false|"
+    r"untrue|wrong|incorrect|inaccurate|mistaken)|"
     r"not (?:true|correct|right|the case|so)|an? (?:mistake|error|lie))"
     r"(?: to (?:say|write|claim|state|assume|think|note|record|put down|report))?(?: that)?) "
     r"(?P<stated>.+)",
@@ -76,6 +80,16 @@ def is_unlikely(question: str, query: str) -> bool:
 def is_one_clause(question: str) -> bool:
     """Whether a question has one verb for all that it asks: 'Is it round and smooth?'."""
     return _ANOTHER_CLAUSE.search(question) is None
+
+
+def alone_asked(question: str) -> str:
+    """The one sentence that asks, of several; all of them where none, or more than one, asks.
+
+    'The stem is thin. Is it deep?' asks whether it is deep.
+    """
+    sentences = [each.strip() for each in _SENTENCE.findall(question)]
+    asking = [each for each in sentences if each.endswith("?")]
+    return asking[0] if len(asking) == 1 < len(sentences) else question
 
 
 def denied_statement(question: str) -> str:

@@ -25,6 +25,7 @@ from cltp.llm.generation import Reply
 from tacgrasp.lessons.dialogue.calculations.calculated import calculated
 from tacgrasp.lessons.dialogue.conditions import check_of
 from tacgrasp.lessons.dialogue.families.catalogue import understand
+from tacgrasp.lessons.dialogue.families.misspelled import respelled
 from tacgrasp.lessons.dialogue.meaning import (
     Check,
     Several,
@@ -46,11 +47,12 @@ from tacgrasp.lessons.dialogue.written_units import in_asked_unit, numbers_in_un
 from tacgrasp.lessons.divided_questions import divided
 from tacgrasp.lessons.joined_questions import (
     asked_together,
+    either_of,
     is_either,
     with_adjective,
 )
 from tacgrasp.lessons.query_classifier import QueryOdds
-from tacgrasp.lessons.question_form import denied_statement, is_one_clause, is_unlikely
+from tacgrasp.lessons.question_form import alone_asked, denied_statement, is_one_clause, is_unlikely
 from tacgrasp.lessons.read_question import ReadQuestion
 
 NAMED = 12
@@ -126,13 +128,14 @@ def understood_by_grammar(question: str, before: str = "") -> ReadQuestion | Non
     # 'isn't more than 1 N felt' would be read as 'is not more than 1 N felt'
     if is_denied and (affirmed := understood_by_grammar(plain, before)):
         return affirmed
-    meaning = with_adjective(question) or understand(question, before=before)
+    meaning = with_adjective(question) or either_of(question)
+    meaning = meaning or understand(question, before=before)
     if meaning is None and plain != question:
         return understood_by_grammar(plain, before)
     if meaning is None and not before:
         meaning = asked_together(question) or calculated(question)
     if meaning is None:
-        return None
+        return _by_other_words(question, before)
     asked = asked_text(question, before)
     try:
         query = query_of(meaning, asked.numbers)
@@ -145,10 +148,19 @@ def understood_by_grammar(question: str, before: str = "") -> ReadQuestion | Non
     return None if read is None else _as_one(question, ReadQuestion(query, read, 1.0))
 
 
+def _by_other_words(question: str, before: str) -> ReadQuestion | None:
+    """What a question means by the grammar once slips, or remarks beside it, are taken out."""
+    for plain in (respelled(question), alone_asked(question)):
+        if plain != question:
+            return understood_by_grammar(plain, before)
+    return None
+
+
 def understood_by_model(
     writer: QueryWriter, question: str, before: str = ""
 ) -> ReadQuestion | None:
     """What a question means to model and classifier; None where they come to no query."""
+    question = respelled(question)
     if is_beyond(question):
         return None
     if stated := denied_statement(question):

@@ -12,7 +12,7 @@ from __future__ import annotations
 import ast
 import math
 import operator
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -43,13 +43,14 @@ _COMPARISONS: Mapping[type[ast.AST], Callable[[Any, Any], bool]] = {
     ast.Eq: operator.eq,
     ast.NotEq: operator.ne,
 }
-_FUNCTIONS: Mapping[str, tuple[int, Callable[..., float]]] = {
-    "abs": (1, abs),
-    "hypot": (2, math.hypot),
-    "min": (2, min),
-    "max": (2, max),
-    "sqrt": (1, math.sqrt),
+_FUNCTIONS: Mapping[str, tuple[Sequence[int], Callable[..., float]]] = {
+    "abs": ((1,), abs),
+    "hypot": ((2,), math.hypot),
+    "min": (range(2, 9), min),
+    "max": (range(2, 9), max),
+    "sqrt": ((1,), math.sqrt),
 }
+"""Functions, and how many arguments they may have."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -115,9 +116,16 @@ class Expression:
         )
 
     @property
-    def is_quotient(self) -> bool:
-        """Whether something in it is divided."""
-        return any(isinstance(node, ast.Div) for node in ast.walk(self._tree))
+    def is_percentage(self) -> bool:
+        """Whether 100 times a quotient is in it."""
+        nodes = list(ast.walk(self._tree))
+        products = [n for n in nodes if isinstance(n, ast.BinOp) and isinstance(n.op, ast.Mult)]
+        is_hundredfold = any(
+            isinstance(side, ast.Constant) and side.value == 100
+            for product in products
+            for side in (product.left, product.right)
+        )
+        return is_hundredfold and any(isinstance(node, ast.Div) for node in nodes)
 
     @cached_property
     def choices(self) -> tuple[str, ...]:
@@ -167,7 +175,7 @@ class Expression:
             ):
                 parts = [left, *others]
             case ast.Call(func=ast.Name(id=name), args=args, keywords=[]) if (
-                name in _FUNCTIONS and len(args) == _FUNCTIONS[name][0]
+                name in _FUNCTIONS and len(args) in _FUNCTIONS[name][0]
             ):
                 parts = args
             case _:

@@ -59,6 +59,7 @@ MISSPELLINGS: Mapping[str, str] = {
     "adn": "and",
     "wich": "which",
     "waht": "what",
+    "hw": "how",
     "hwo": "how",
     "presure": "pressure",
     "forse": "force",

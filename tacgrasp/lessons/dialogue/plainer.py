@@ -143,7 +143,8 @@ def plainer(question: str) -> str:
     if opening := _ADDRESS.match(text):
         text = text[opening.end() :]
     text = _ADDED.sub("", _POLITE_VERB.sub("", text, count=1))
-    text = _RIGHT.sub(", right", text)
+    if (right := _RIGHT.search(text)) and not _DENIED.search(text) and not _NEGATIVE.search(text):
+        text = f"{text[: right.start()]}, is it?"
     text = _PURPOSE.sub("", _POLITE.sub("give me ", _THANKS.sub("", text), count=1))
     if tag := _TAG.search(text):
         text = _asked(text, tag)

@@ -230,11 +230,15 @@ def amount_text(
 
 
 def value_text(value: float, unit: str) -> str:
-    """A calculated value, given in mm, N, percent, mm² or g, as text in a unit; '' for a ratio."""
+    """A calculated value, given in mm, N, percent, mm² or g, as text in a unit.
+
+    The unit is '' for a ratio, and may be a quotient of two ('N/mm').
+    """
     if unit == "%":
         return f"{'-' if value < 0 else ''}{percent_text(abs(value))} %"
-    size = UNITS[unit].size if unit else 1.0
-    base = 0 if unit and UNITS[unit].dimension == "mass" else 2 if abs(value) >= 0.1 else 3
+    known = UNITS.get(unit)
+    size = known.size if known else 1.0
+    base = 0 if known and known.dimension == "mass" else 2 if abs(value) >= 0.1 else 3
     decimals = max(0, base + round(math.log10(size)))
     return f"{round(value / size, decimals) + 0.0:.{decimals}f} {unit}".rstrip()
 

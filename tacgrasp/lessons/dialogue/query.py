@@ -388,7 +388,7 @@ def _meaning(text: str, numbers: Sequence[float], length: Length) -> Meaning:
             return check_of(test.removeprefix("not "), denied=is_denied, length=length)
         case "calculate":
             truth, _, unit = rest.rpartition(" in ")
-            if truth and (unit in UNITS or unit == "1"):
+            if truth and (unit in UNITS or unit == "1" or "/" in unit):
                 return Calculated(truth=truth, unit=unit.removeprefix("1"))
             return Calculated(truth=rest, unit=None)
         case "why" if rest in _REASONS:

@@ -36,6 +36,7 @@ class Odds:
 def wordings_unknown_to_the_grammar(monkeypatch):
     """Every question is left to the model."""
     monkeypatch.setattr(understanding, "understand", lambda *_, **__: None)
+    monkeypatch.setattr(understanding, "calculated", lambda *_: None)
     monkeypatch.setattr(understanding, "QueryOdds", Odds)
 
 

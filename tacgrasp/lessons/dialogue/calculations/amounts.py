@@ -14,6 +14,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from tacgrasp.lessons.dialogue.calculations.asked import AskedWords, usual, usual_unit
+from tacgrasp.lessons.dialogue.calculations.quantity_names import is_band
 from tacgrasp.lessons.dialogue.calculations.terms import (
     PLAIN,
     UNSAID,
@@ -23,7 +24,7 @@ from tacgrasp.lessons.dialogue.calculations.terms import (
     in_newtons,
 )
 from tacgrasp.lessons.dialogue.meaning import Calculated
-from tacgrasp.lessons.dialogue.quantities import UNITS
+from tacgrasp.lessons.dialogue.quantities import GRAVITY_N_PER_G, UNITS
 
 _BELOW = (
     r"short of|below|under|beneath|shy of|(?:less|smaller|lower) than|falls? short of|"
@@ -34,7 +35,7 @@ _ABOVE = (
     r"(?:more|greater|larger|higher|deeper) than|(?:lies?|goes|rises) (?:above|over|beyond)"
 )
 _APART = r"(?:away|apart|off)? ?from|off|differs? from|deviates? from"
-_IS = r"(?:is|are|was|would|does|do|did|will|has|have|lies|lie|stands?)"
+_IS = r"(?:is|are|am|was|would|does|do|did|will|has|have|lies|lie|stands?)"
 _GET = (
     r"(?:(?: and)?(?: then)? (?:how much|what)(?: .+)?|,? (?:and )?(?:give|tell|show|state|"
     r"say)(?: .+)?)?"
@@ -42,7 +43,7 @@ _GET = (
 _TAIL = (
     r"(?: (?:amount|come|correspond|add up|be equal|equal) to| makes?(?: up)?| takes? up| "
     r"represents?|"
-    r"| uses?(?: up)?| be| equals?| account for| cover)?"
+    r" at| uses?(?: up)?| be| equals?| account for| cover)?"
 )
 _PARTS = r"(?:percent|percentage|share|fraction|part|proportion)"
 _USED = r"(?:taken up|used|used up|filled|consumed|reached|covered|exhausted)"
@@ -71,7 +72,16 @@ _RATIOS = tuple(
     for pattern in (
         r"how many times(?: \w+)? (?:is|are) (?P<a>.+) (?:than|as|of) (?P<b>.+)",
         r"how many times (?:does|do) (?P<b>.+) (?:fit|go) (?:in|into) (?P<a>.+)",
-        r"divide (?P<a>.+) by (?P<b>.+)",
+        r"(?:(?:what|how much) (?:do|would) (?:you|we|i) (?:get|have) (?:if|when) (?:you|we|"
+        r"i) )?divide "
+        r"(?P<a>.+) by (?P<b>.+)",
+        r"(?:what is )?(?P<a>.+) divided by (?P<b>.+)",
+        r"(?:what is |the )*ratio (?:of|between) (?P<a>.+) (?:to|and) (?P<b>.+)",
+        r"how many times (?P<b>the .+?) (?:is|are) (?P<a>.+)",
+        r"by (?:what|which) (?:factor|number) (?:would|must|should|do|could|can) (?:i|we|"
+        r"you) (?:have to )?"
+        r"(?:multiply|scale|raise) (?P<b>.+) to (?:land (?:exactly )?on|get(?: to)?|reach|be "
+        r"at|obtain) (?P<a>.+)",
     )
 )
 _EXCEEDED = re.compile(
@@ -80,15 +90,15 @@ _EXCEEDED = re.compile(
 )
 _MULTIPLIED = re.compile(r"multiply (?P<a>.+) by (?P<b>#\d+)")
 _UNUSED = re.compile(
-    rf"(?:what|how many|how much|which)(?: {_PARTS})? of (?P<b>.+?)(?: is| are| do we have| "
-    rf"have we)?"
+    rf"(?:what|how many|how much|which)(?: {_PARTS})? of (?P<b>.+?)(?: is| are| do we(?: still)? "
+    rf"have| have we)?"
     rf"(?: still)?(?: remains?| stays?| is)? {_FREE}"
 )
 _MISSING = re.compile(
     r"how much(?: more| further)?(?: (?:is|are|do we|does it|would it))?(?: still)? "
     r"(?:missing|lacking|left|needed|lack|to go|remain(?:s|ing)?) "
     r"(?:until|till|to|before|up to|for|from) (?:(?P<a>.+?) (?:reaches|reach|gets? to|hits?|is at|"
-    r"touches|arrives at) )?(?:reach(?:ing)? )?(?P<b>.+)"
+    r"touches|arrives at|measures?d?|was|were at) )?(?:reach(?:ing)? )?(?P<b>.+)"
 )
 _FURTHER = re.compile(
     r"how (?:much|far)(?: (?:more|further|deeper|harder|force))* (?:(?:i|we|you|it) "
@@ -97,15 +107,32 @@ _FURTHER = re.compile(
     r"to|get up to) (?P<b>.+)"
 )
 _UNTIL = re.compile(
-    r"how much(?: (?:more|further|is there|do we have|have we))*(?: (?:can|could|may|might) "
-    r"(?:we|you|i) \w+)? "
-    r"(?:until|till|to|before|up to) (?:(?:we|you|it|i) (?:reach|hit|are at|get to|reaches|"
-    r"hits) )?(?P<b>.+)"
+    r"how much(?: (?:more|further|deeper|is there|do we have|have we))*(?: (?:can|could|may|might) "
+    r"(?:we|you|i|it) \w+)? "
+    r"(?:until|till|to|before|up to) (?:(?:we|you|it|i|the \w+) (?:reach|hit|are at|get to|reaches|"
+    r"reached|hits|measures?d?|was) )?(?P<b>.+)"
 )
 _SLACK = re.compile(
     r"(?:what|how much) (?:slack|room|margin|leeway|headroom|distance|space)"
     r"(?: (?:have we|do we have|is there|is|do you have))?(?: (?:left|got|still))* "
     r"(?:before|to|until|up to|below|under|till) (?P<b>.+)"
+)
+_SEPARATED = re.compile(
+    r"how much (?:separates?|divides?|lies? between|would separate|is between) (?P<a>.+?) "
+    r"(?:from|and) (?P<b>.+)"
+)
+_INTO_BAND = re.compile(
+    r"(?:how much|what is the (?:smallest|least)).*\b(?:change|correct(?:ion)?|adjust(?:ment)?)\b.*"
+    r" (?:in|inside|within|into|to) (?:the |our )?(?P<band>.+?)(?: if .*)?"
+)
+_THICK = re.compile(
+    r"(?:if|suppose|assuming|say|given) (?:the|this|our) (?:gel|pad|skin) (?:is|were|was) "
+    r"(?P<b>#\d+ \w+) thick (?:what|how many|"
+    rf"which) {_PARTS} of (?:it|that|the (?:thickness|gel))\b.*"
+)
+_COVERED = re.compile(r"how much of (?:the )?pad is (?:touched|covered|pressed|in contact)")
+_AT = re.compile(
+    r"at how much (?:would|will|do|should) (?:we|i|it|you) (?:stand|be)(?: at)? (?P<a>.+)"
 )
 _APARTS = tuple(
     re.compile(pattern)
@@ -144,6 +171,12 @@ _ADDED = tuple(
         r"add (?P<b>.+) (?:to|and) (?P<a>.+)",
     )
 )
+_WEIGHS = re.compile(r"(?:how much|what) (?:does|do|would|will) (?:the )?[a-z]+ weigh")
+_MASS_OF = re.compile(
+    r"(?:what|which|how much|how large a) (?:mass|weight)(?: would| does)? (?:weighs?|be|"
+    r"is)(?: (?:exactly|just))? "
+    r"(?:as much as|the same as|equal to) (?P<a>.+?)(?: here on earth| on earth| take g .*)?"
+)
 _POINT = re.compile(
     r"(?:what is |how (?:much|far) is )?(?:the )?(?:distance (?:between|from|of) )?(?:the "
     r")?(?:contact|it) "
@@ -166,7 +199,8 @@ _COUNT = re.compile(
 def calculated_amount(asked: AskedWords) -> Calculated | None:
     """The number that a question asks to calculate; None where it asks for none."""
     readers: tuple[Callable[[AskedWords], Term | None], ...] = (
-        _unused, _share, _ratio, _missing, _apart, _taken, _counted, _from_point, _alone,
+        _unused, _share, _ratio, _missing, _apart, _taken,
+        _counted, _weight, _from_point, _worked_out, _alone,
     )  # fmt: skip
     for reader in readers:
         if (term := reader(asked)) and (amount := amount_of(term, asked)):
@@ -186,6 +220,8 @@ def amount_of(term: Term, asked: AskedWords) -> Calculated | None:
     unit = asked.unit or usual_unit(term.dimension)
     if term.dimension == PLAIN:
         return Calculated(truth=expression, unit="")
+    if "/" in term.dimension:
+        return Calculated(truth=expression, unit=term.dimension)
     if UNITS[unit].dimension == "force" and term.dimension == "mass":
         return Calculated(truth=in_newtons(term).expression, unit=unit)
     if UNITS[unit].dimension == "area" and "area_percent" in expression and term.is_sum is False:
@@ -218,8 +254,10 @@ def _share(asked: AskedWords) -> Term | None:
         if found and (pair := _pair(asked, found["a"], found["b"])):
             a, b = pair
             if asked.is_ratio:
-                return Term(expression=f"{a.factor} / {b.factor}", dimension=PLAIN, words="")
-            return Term(expression=f"100 * {a.factor} / {b.factor}", dimension="fraction", words="")
+                return Term(expression=f"{a.factor} / {b.divisor}", dimension=PLAIN, words="")
+            return Term(
+                expression=f"100 * {a.factor} / {b.divisor}", dimension="fraction", words=""
+            )
     return None
 
 
@@ -229,19 +267,29 @@ def _ratio(asked: AskedWords) -> Term | None:
         found = pattern.fullmatch(asked.words)
         if found and (pair := _pair(asked, found["a"], found["b"])):
             return Term(
-                expression=f"{pair[0].factor} / {pair[1].factor}", dimension=PLAIN, words=""
+                expression=f"{pair[0].factor} / {pair[1].divisor}", dimension=PLAIN, words=""
             )
+        if found and (per := _per(asked.term(found["a"]), asked.term(found["b"]))):
+            return per
     if found := _EXCEEDED.fullmatch(asked.words):
         pair = _pair(asked, found["a"], found["b"], is_above=bool(found["above"]))
         if pair is not None:
             more, less = pair if found["above"] else pair[::-1]
-            share = f"100 * ({more.expression} - {less.factor}) / {pair[1].factor}"
+            share = f"100 * ({more.expression} - {less.factor}) / {pair[1].divisor}"
             return Term(expression=share, dimension="fraction", words="")
     if found := _MULTIPLIED.fullmatch(asked.words):
         term, times = asked.term(found["a"]), asked.term(found["b"])
         if term is not None and times is not None:
             return replace(term, expression=f"{times.expression} * {term.factor}")
     return None
+
+
+def _per(a: Term | None, b: Term | None) -> Term | None:
+    """A quantity over one of another dimension, in units such as N/mm."""
+    units = [usual_unit(term.dimension) for term in (a, b) if term and term.has_quantity]
+    if a is None or b is None or len(units) < 2 or not all(units) or a.dimension == b.dimension:
+        return None
+    return Term(expression=f"{a.factor} / {b.divisor}", dimension="/".join(units), words="")
 
 
 def _unused(asked: AskedWords) -> Term | None:
@@ -253,7 +301,7 @@ def _unused(asked: AskedWords) -> Term | None:
         return Term(
             expression=f"{whole.expression} - force_n", dimension="force", words="", is_sum=True
         )
-    share = f"100 - 100 * force_n / {whole.factor}"
+    share = f"100 - 100 * force_n / {whole.divisor}"
     return Term(expression=share, dimension="fraction", words="", is_sum=True)
 
 
@@ -267,17 +315,19 @@ def _missing(asked: AskedWords) -> Term | None:
 
 
 def _apart(asked: AskedWords) -> Term | None:
-    for pattern in _APARTS:
+    for pattern in (*_APARTS, _SEPARATED):
         if (found := pattern.fullmatch(asked.words)) is None:
             continue
         sides = found.groupdict()
-        is_above = None if sides.get("apart") else bool(sides.get("above"))
+        is_above = bool(sides["above"]) if sides.get("above") or sides.get("below") else None
         if (pair := _pair(asked, found["a"], found["b"], is_above=is_above)) is None:
             continue
         a, b = pair
         if sides.get("below"):
             return _difference(b, a)
         if sides.get("above"):
+            return _difference(a, b)
+        if asked.is_signed:
             return _difference(a, b)
         apart = f"abs({a.expression} - {b.factor})"
         return Term(expression=apart, dimension=a.dimension, words="")
@@ -298,6 +348,32 @@ def _taken(asked: AskedWords) -> Term | None:
                 expression = f"{a.expression} {sign} {b.factor}"
                 return Term(expression=expression, dimension=a.dimension, words="", is_sum=True)
     return None
+
+
+def _weight(asked: AskedWords) -> Term | None:
+    """The object's weight in newtons, and the mass that weighs as much as a force."""
+    if _WEIGHS.fullmatch(asked.words) and asked.unit in ("N", "mN"):
+        return Term(expression="mass_g", dimension="mass", words="", is_weight=True)
+    found = _MASS_OF.fullmatch(asked.words)
+    force = asked.term(found["a"], beside=usual("force")) if found else None
+    if force is None or force.dimension != "force":
+        return None
+    return Term(expression=f"{force.factor} / {GRAVITY_N_PER_G:g}", dimension="mass", words="")
+
+
+def _worked_out(asked: AskedWords) -> Term | None:
+    """Shares of pad and gel, the least change into the band, and a share that is stood at."""
+    if asked.is_ratio and _COVERED.fullmatch(asked.words):
+        return Term(expression="area_percent / 100", dimension=PLAIN, words="")
+    found = _THICK.fullmatch(asked.words)
+    thick = asked.term(found["b"]) if found else None
+    if thick is not None and thick.dimension == "length":
+        share = f"100 * depth_mm / {thick.divisor}"
+        return Term(expression=share, dimension="fraction", words="")
+    if (found := _INTO_BAND.fullmatch(asked.words)) and is_band(found["band"]):
+        change = "max(0, band_low_n - force_n, force_n - band_high_n)"
+        return Term(expression=change, dimension="force", words="")
+    return asked.term(found["a"]) if (found := _AT.fullmatch(asked.words)) else None
 
 
 def _from_point(asked: AskedWords) -> Term | None:

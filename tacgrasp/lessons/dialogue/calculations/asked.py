@@ -25,7 +25,8 @@ _USUAL: Mapping[str, tuple[str, str]] = {
 
 _ITS = re.compile(r"\bits\b", re.I)
 _PRONOUN = re.compile(
-    r"(?:(?:we|it|this|that|i|you|they|these|those|one|he|she|the (?:robot|gripper|contact|object|"
+    r"(?:(?:we|us|me|it|this|that|i|you|they|these|those|one|he|she|the (?:robot|gripper|"
+    r"contact|object|"
     r"thing|result|reading|value|touch|fingers?)|what you feel)(?: (?:now|pressing|gripping|"
     r"here))?)"
 )
@@ -34,7 +35,8 @@ _GRAVITY = re.compile(
 )
 _LEADING = re.compile(
     r"^(?:(?:please|kindly|tell me|give me|state|say|report|compute|calculate|work out|determine|"
-    r"now|well|ok|then|and|so|roughly|approximately|exactly|(?:i |we )?(?:want|need|would "
+    r"now|well|ok|then|and|so|hmm+|um+|uh+|for (?:my|the|our|your) \w+|roughly|approximately|"
+    r"exactly|(?:i |we )?(?:want|need|would "
     r"like) to know|"
     r"let me know|i ask|(?:can|could|would|will) you (?:tell me|say|work out|calculate)) )+"
 )
@@ -50,17 +52,42 @@ _AS_RATIO = re.compile(
     r"(?: between #\d+ and (?:one|#\d+))?(?= |$) ?"
 )
 _AS_PERCENTAGE = re.compile(r" (?:in percent|as (?:a )?percentages?)(?= |$)")
+_ANSWERED = re.compile(
+    r" (?:answer|say|reply|respond|just say)(?: with| only)? [a-z]+(?: [a-z]+)?(?: or "
+    r"[a-z]+(?: [a-z]+)?)+$"
+)
+_TAKING_G = re.compile(
+    r" (?:use|take|taking|with|using) (?:g )?(?:as |of )?#\d+(?: m \S+)?(?: (?:for|as) g)?$"
+)
+_ONE_MORE = re.compile(
+    rf"\b(?:one (?:more|extra|additional|further)|(?:another|an extra|a further)(?: more)?) "
+    rf"({UNIT})\b"
+)
+_PER_UNIT = re.compile(
+    rf"(?: (?:in|how (?:many|much)))? (?:{UNIT}) per (?:{UNIT})(?: (?:is|are|does|do) "
+    rf"(?:that|it|this)(?: \w+)*)?$"
+)
+_EXTRA_ONE = re.compile(rf"\bone extra (?={UNIT}\b)|\banother (?=half (?:an? )?(?:{UNIT})\b)")
+_FULL_ONE = re.compile(rf"\b(?:one|an?) (?:full|whole|single) (?={UNIT}\b)")
+_KEEPING_SIGNS = re.compile(r",? (?:keeping|with|counting) (?:the|their) signs?\b")
+_AT_ONCE = re.compile(r" (?:at the same time|simultaneously|together|at once)$")
+_REMARK = re.compile(r" (?:i|we) need (?:it|this|that|them) .*$| whichever (?:is|one is) \w+$")
+_AMOUNT_OF = re.compile(
+    r"^(?:by )?(?:what|which) (?:amount|distance)\b|^what(?: is| are)?(?= (?:still "
+    r")?(?:missing|lacking|left)\b)"
+)
 _OR_ZERO = re.compile(
-    r" (?:(?:say|give|answer|report|put|use|write) )?(#\d+) (?:if|when|where) .+$"
+    r" (?:or )?(?:(?:say|give|answer|report|put|use|write) )?(?:or )?(#\d+) (?:if|when|where) .+$"
 )
 _SIGNED = re.compile(
     r" (?:(?:use|give|say|put|with|write) )?(?:an? |it )?(?:minus|negative|plus)(?: sign)? "
-    r"(?:if|for|when|meaning|means) .+$| with (?:a |the )?sign$"
+    r"(?:if|for|when|meaning|means) .+$| an? (?:minus|negative) (?:figure|value|number|sign)"
+    r"(?: would| will)? means? .+$| with (?:a |the )?sign$"
 )
 _UNSIGNED = re.compile(
     r"^(?:ignoring|without|regardless of|disregarding|leaving out|dropping) (?:the |its )?"
     r"(?:sign|direction) | (?:ignoring|without|regardless of|disregarding|no matter) (?:the |its )?"
-    r"(?:sign|direction|which)$| never mind which(?: way)?$| on either side$"
+    r"(?:sign|direction|which)$| never mind which(?: way)?$| either way$| on either side$"
 )
 
 
@@ -75,6 +102,7 @@ class AskedWords:
         is_ratio: Whether a share is asked for as a plain number.
         is_unsigned: Whether the sign is to be left out.
         has_floor: Whether what is below zero counts as zero.
+        is_signed: Whether a difference is asked for with its sign.
         subject: What its pronouns stand for; None for the usual quantity of a dimension.
     """
 
@@ -84,6 +112,7 @@ class AskedWords:
     is_ratio: bool = False
     is_unsigned: bool = False
     has_floor: bool = False
+    is_signed: bool = False
     subject: Term | None = None
 
     def term(self, words: str, beside: Term | None = None) -> Term | None:
@@ -102,6 +131,14 @@ class AskedWords:
             end = "band_high_n" if is_above else "band_low_n"
             return Term(expression=end, dimension="force", words=words)
         return self.term(words)
+
+    def in_its_unit(self, words: str) -> str:
+        """Words whose bare numbers have the unit that the question names beside them."""
+        if not self.unit:
+            return words
+        return re.sub(
+            rf"(#\d+)(?! (?:{UNIT})\b| times| \w+ of )", rf"\1 {self.unit.lower()}", words
+        )
 
     def about(self, subject: Term, words: str) -> AskedWords:
         """The rest of the question, whose pronouns stand for a term."""
@@ -131,7 +168,10 @@ def usual_unit(dimension: str) -> str:
 
 def asked_words(question: str) -> AskedWords:
     """A question in plain words, with what it says of unit and sign taken out."""
-    asked = asked_text(plainer(_ITS.sub("the", question)))
+    question = _EXTRA_ONE.sub("another ", _ITS.sub("the", question.lower()))
+    question = _FULL_ONE.sub("1 ", _ONE_MORE.sub(r"1 \1 more", question))
+    question = _KEEPING_SIGNS.sub("", question)
+    asked = asked_text(plainer(question))
     places = iter(range(1, len(asked.numbers) + 1))
     words = re.sub("#", lambda _: f"#{next(places, 0)}", asked.words)
     words = _LEADING.sub("", _GRAVITY.sub("", words))
@@ -139,7 +179,11 @@ def asked_words(question: str) -> AskedWords:
     has_floor = zero is not None and asked.numbers[int(zero[1][1:]) - 1] == 0
     if zero is not None and has_floor:
         words = words[: zero.start()]
+    for remark in (_ANSWERED, _TAKING_G, _PER_UNIT, _AT_ONCE, _REMARK):
+        words = remark.sub("", words)
+    words = _AMOUNT_OF.sub("how much", words)
     is_unsigned = _UNSIGNED.search(words) is not None
+    is_signed = _SIGNED.search(words) is not None
     words = _SIGNED.sub("", _UNSIGNED.sub("", words))
     is_ratio = _AS_RATIO.search(words) is not None and _AS_PERCENTAGE.search(words) is None
     unit, words = _unit(_AS_RATIO.sub("", words) if is_ratio else words)
@@ -150,6 +194,7 @@ def asked_words(question: str) -> AskedWords:
         is_ratio=is_ratio,
         is_unsigned=is_unsigned,
         has_floor=has_floor,
+        is_signed=is_signed,
     )
 
 

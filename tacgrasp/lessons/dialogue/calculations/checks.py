@@ -12,6 +12,7 @@ from __future__ import annotations
 import re
 
 from tacgrasp.lessons.dialogue.calculations.asked import AskedWords, usual
+from tacgrasp.lessons.dialogue.calculations.quantity_names import UNIT, is_band
 from tacgrasp.lessons.dialogue.calculations.terms import Term, alike
 from tacgrasp.lessons.dialogue.meaning import Calculated
 
@@ -22,12 +23,16 @@ _ADVERB = (
 )
 _BE = (
     r"(?:be|lie|lying|sit|land|stay|come out|end up|remain|get|go|fall|"
-    r"(?:put|land|take|bring|push|get|carry) (?:us|me|you|it))"
+    r"(?:put|land|take|bring|push|get|carry|leave|keep) (?:us|me|you|it))"
 )
 _COMPARED = tuple(
     (sign, re.compile(rf"(?P<a>.+?)(?: {_ADVERB})*(?: {_BE})?(?: {_ADVERB})* (?:{said}) (?P<b>.+)"))
     for sign, said in (
-        (">=", r"at least|no less than|not less than|not below|not under|no smaller than"),
+        (
+            ">=",
+            r"reach(?:es|ed)?|comes? up to|at least|no less than|not less than|not below|not "
+            r"under|no smaller than",
+        ),
         ("<=", r"at most|no more than|not more than|not above|not over|no larger than"),
         (
             ">",
@@ -39,9 +44,27 @@ _COMPARED = tuple(
         (
             "<",
             r"(?:less|smaller|lower|lighter|shallower|weaker|nearer|fewer) than|below|under|"
-            r"short of|falls? short of|beneath|undercuts?",
+            r"short of|falls? short of|beneath|undercuts?|fail(?:ed|s)? to reach",
         ),
     )
+)
+_NEARER = re.compile(
+    rf"(?P<a>.+?)(?: {_ADVERB})*(?: {_BE})? (?:closer|nearer)(?: to)? (?P<b>.+) than (?:to |"
+    rf"it is to )?(?P<c>.+)"
+)
+_PUSHED = re.compile(
+    r"(?:we|you|i|it|the gripper)(?: are| is)? (?:push|press|squeez|gripp?)(?:ing|es|e|"
+    r"ed)?(?: on it)? (?:harder|more) than"
+)
+_LIMIT = re.compile(
+    rf"(?:the )?(?:force )?(?:limit|ceiling)(?: {_ADVERB})*(?: be)?(?: {_ADVERB})* "
+    rf"(?:(?P<kept>respected|kept|observed|"
+    r"obeyed|met|okay|safe)|exceeded|violated|broken|passed|crossed|overstepped)"
+)
+_SIDE_OF = re.compile(
+    rf"(?:it|the object|the contact)(?: {_ADVERB})*(?: be)? (?:to the )?(?P<side>left|right|"
+    rf"above|below)(?: of)? "
+    r"(?:the )?(?:\w+ )?(?:middle|center(?: line)?|midline|line)"
 )
 _WITHIN = re.compile(
     rf"(?P<a>.+?)(?: {_ADVERB})*(?: {_BE})? (?:with)?in (?P<c>#.+?) (?:of|from|around) (?P<b>.+)"
@@ -59,6 +82,11 @@ _ANY = re.compile(
 )
 _ASKS_ANY = re.compile(rf"^(?:{_VERB} )?{_ANY.pattern} | {_ANY.pattern}$")
 _JOINT = re.compile(r" (and|or) ")
+_BARE = re.compile(
+    r"(?:pressed|pushed|squeezed|held|gripped|touched) with (?=(?:more|less|at least|at most|"
+    r"over|under)\b)|"
+    r"(?=(?:more|less|greater|deeper|shallower|heavier|lighter|stronger) than )"
+)
 _RESERVE = re.compile(
     r"(?:we|you|i|there|it) (?:(?:still|have|got|is) )*(?:(?P<more>more|over)|(?P<less>less|"
     r"under)) "
@@ -76,7 +104,9 @@ def calculated_check(asked: AskedWords) -> Calculated | None:
         words = words[begin.end() :]
     else:
         return None
-    condition = _condition(asked, words.strip(), joint=" or " if is_any else "")
+    words = asked.in_its_unit(words)
+    words = re.sub(r"^(it|we|they) both ", r"\1 ", words.strip())
+    condition = _condition(asked, words, joint=" or " if is_any else "")
     return None if condition is None else Calculated(truth=condition, unit=None)
 
 
@@ -88,6 +118,22 @@ def condition_of(asked: AskedWords, words: str) -> str | None:
         pair = alike(left, rest) if rest else None
         sign = ">" if found["more"] else "<"
         return f"{pair[0].expression} {sign} {pair[1].factor}" if pair else None
+    if found := _SIDE_OF.fullmatch(words):
+        name = "y_mm" if found["side"] in ("above", "below") else "x_mm"
+        place = asked.subject or Term(expression=name, dimension="length", words="it")
+        if place.dimension == "length" and name in place.expression:
+            return f"{place.expression} {'<' if found['side'] in ('left', 'below') else '>'} 0"
+    if found := _LIMIT.fullmatch(words):
+        felt = asked.subject or usual("force")
+        if felt.dimension == "force":
+            return f"{felt.expression} {'<=' if found['kept'] else '>'} limit_n"
+    words = _PUSHED.sub("force more than", words)
+    if found := _NEARER.fullmatch(words):
+        pairs = [
+            _pair(asked, found["a"], each) for each in shared_noun(asked, found["b"], found["c"])
+        ]
+        apart = [f"abs({pair[0].expression} - {pair[1].factor})" for pair in pairs if pair]
+        return " < ".join(apart) if len(apart) == 2 else None
     if found := _WITHIN.fullmatch(words):
         pair = _pair(asked, found["a"], found["b"])
         tolerance = asked.term(found["c"])
@@ -96,7 +142,11 @@ def condition_of(asked: AskedWords, words: str) -> str | None:
             assert near is not None
             return f"abs({pair[0].expression} - {pair[1].factor}) <= {near[1].factor}"
     if found := _BETWEEN.fullmatch(words):
-        low, high = (_pair(asked, found["a"], found[name]) for name in "bc")
+        unit = re.search(rf" (?:{UNIT})$", found["c"])
+        least = (
+            f"{found['b']}{unit[0]}" if unit and re.fullmatch(r"#\d+", found["b"]) else found["b"]
+        )
+        low, high = (_pair(asked, found["a"], end) for end in (least, found["c"]))
         if low and high:
             a, b, c = low[0].factor, low[1].factor, high[1].factor
             return f"min({b}, {c}) <= {a} <= max({b}, {c})"
@@ -115,6 +165,10 @@ def _comparison(asked: AskedWords, words: str) -> str | None:
             continue
         if pair := _pair(asked, found["a"], found["b"], is_above=">" in sign):
             return f"{pair[0].expression} {sign} {pair[1].factor}"
+        if is_band(found["a"]) and (
+            pair := _pair(asked, found["b"], found["a"], is_above="<" in sign)
+        ):
+            return f"{pair[1].factor} {sign} {pair[0].factor}"
         if both := _both(asked, found["a"], found["b"], sign):
             return both
     return None
@@ -130,8 +184,23 @@ def _both(asked: AskedWords, subjects: str, words: str, sign: str) -> str | None
     return f" {parts[1]} ".join(told) if len(told) == 2 else None
 
 
+def shared_noun(asked: AskedWords, first: str, second: str) -> tuple[str, str]:
+    """Two noun phrases of which one lacks its noun: 'the upper end of the band, the lower one'."""
+    if asked.term(second) is None and (one := re.fullmatch(r"(?:the )?(\w+)(?: one)?", second)):
+        return first, re.sub(r"^(?:the )?\w+", one[1], first)
+    noun = re.fullmatch(r"(?:the )?\w+ (.+)", second)
+    if noun and asked.term(first) is None and asked.term(f"{first} {noun[1]}"):
+        return f"{first} {noun[1]}", second
+    if asked.term(first) is None and (end := re.search(r" (?:of|in) .+$", second)):
+        return f"{first}{end[0]}", second
+    return first, second
+
+
 def _condition(asked: AskedWords, words: str, *, joint: str) -> str | None:
     """The condition of a clause, or of several that 'and' or 'or' joins."""
+    words = words.removeprefix("both ")
+    if _BARE.match(words):
+        words = f"it {_BARE.sub('', words, count=1)}"
     if whole := condition_of(asked, words):
         return whole
     for found in _JOINT.finditer(words):

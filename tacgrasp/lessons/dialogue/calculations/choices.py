@@ -12,7 +12,8 @@ from __future__ import annotations
 import re
 
 from tacgrasp.lessons.dialogue.calculations.asked import AskedWords, usual
-from tacgrasp.lessons.dialogue.calculations.terms import Term, alike
+from tacgrasp.lessons.dialogue.calculations.checks import shared_noun
+from tacgrasp.lessons.dialogue.calculations.terms import alike
 from tacgrasp.lessons.dialogue.meaning import Calculated
 
 _GREATER = r"(?:greater|larger|bigger|higher|more|heavier|stronger|longer|further|farther|most)"
@@ -27,6 +28,11 @@ _WHICH = re.compile(
 _NEARER = re.compile(
     r"(?:(?:is|are|does|do|was) )?(?P<a>.+?)(?: (?:sit|lie|lying|stand|be|stay|sitting))? "
     r"(?:nearer|closer)(?: to)? (?P<b>.+) or(?: (?:closer|nearer))?(?: to)? (?P<c>.+)"
+)
+_WHICH_NEARER = re.compile(
+    r"(?:which|what)(?: of (?:these|them|the two))? (?:is|are|does|do) (?P<a>.+?) (?:nearer|"
+    r"closer)(?: to)? "
+    r"(?P<b>.+) or(?: to)? (?P<c>.+)"
 )
 _WHICH_END = re.compile(
     r"(?:to )?(?:which|what) (?:edge|end|side|bound|limit|border) of (?:the |our )?(?P<band>.+?) "
@@ -53,18 +59,31 @@ _HOLD = r"(?:hold(?: still| on)?|keep(?: it)?|stay|leave it|do nothing|wait|stop
 _STEP = re.compile(
     rf"(?=.*\b(?P<more>{_TIGHTEN})\b)(?=.*\b(?P<less>{_LOOSEN})\b)(?:.*\b(?P<hold>{_HOLD})\b)?"
 )
-_ANOTHER = re.compile(r"\b(?:and|then) (?:why|what|how|which|where)\b")
+_INTO_BAND = re.compile(r"(?=.*\bor\b).*\b(?:band|range|window|corridor|target|goal)\b")
+_ANOTHER = re.compile(
+    r"\b(?:and|then) (?:why|what|how|which|where|as the reason|quote|tell|give)\b"
+)
 _BACK = re.compile(
     r"(?:(?:which|what) (?:way|direction|side)|where)(?: to)?\b.*?\b(?:shove|push|nudge|"
     r"slide|shift) "
     r"(?:it|the object|this|that)\b.*\b(?:middle|center|centered)(?: left or right| right or left)?"
+)
+_UPPER, _LOWER = r"(?:upper|top|above|up|higher)", r"(?:lower|bottom|below|down|under)"
+_HALVES = re.compile(
+    rf"(?=.*\b(?P<up>{_UPPER})\b)(?=.*\b(?P<down>{_LOWER})\b).*\b(?:{_UPPER}|{_LOWER}) "
+    rf"(?:half |part |side |one )?or "
+    rf"(?:is it |the |in the |more )*(?:{_UPPER}|{_LOWER})\b.*"
+)
+_PLACED = re.compile(r"\b(?:half|side|part|where|contact|middle|center|pad|thing|gel)\b")
+_NOT_PLACED = re.compile(
+    r"\b(?:if|how|straight|band|range|window|force|limit|goal|target|depth|area|mass|edge|#\d+|should|move|go)\b"
 )
 _ARTICLE = re.compile(r"^(?:the|our|to|to the) ")
 
 
 def calculated_choice(asked: AskedWords) -> Calculated | None:
     """What a question lets choose by terms; None where it lets choose nothing so."""
-    for reader in (_which, _which_end, _nearer, _over_or_under, _step, _back):
+    for reader in (_which, _which_end, _nearer, _over_or_under, _step, _back, _half):
         if found := reader(asked):
             return found
     return None
@@ -72,16 +91,17 @@ def calculated_choice(asked: AskedWords) -> Calculated | None:
 
 def _chosen(first: str, condition: str, second: str, asked: AskedWords) -> Calculated | None:
     words = [asked.said(_ARTICLE.sub("", each)) for each in (first, second)]
-    if words[0] == words[1] or any("'" in word for word in words):
+    if words[0] == words[1]:
         return None
-    return Calculated(truth=f"'{words[0]}' if {condition} else '{words[1]}'", unit=None)
+    return Calculated(truth=f"{words[0]!r} if {condition} else {words[1]!r}", unit=None)
 
 
 def _which(asked: AskedWords) -> Calculated | None:
     if (found := _WHICH.fullmatch(asked.words)) is None:
         return None
-    pair = _terms(asked, found["a"], found["b"])
-    if pair is None:
+    first, second = (asked.term(each) for each in shared_noun(asked, found["a"], found["b"]))
+    pair = alike(first, second) if first and second else None
+    if pair is None or not (pair[0].has_quantity or pair[1].has_quantity):
         return None
     a, b = (f"abs({term.expression})" if found["zero"] else term.factor for term in pair)
     sign = ">" if found["more"] else "<"
@@ -89,11 +109,10 @@ def _which(asked: AskedWords) -> Calculated | None:
 
 
 def _nearer(asked: AskedWords) -> Calculated | None:
-    if (found := _NEARER.fullmatch(asked.words)) is None:
+    found = _WHICH_NEARER.fullmatch(asked.words) or _NEARER.fullmatch(asked.words)
+    if found is None:
         return None
-    b, c = found["b"], found["c"]
-    if shared := re.fullmatch(r"(?:the )?(\w+) (.+)", c):
-        b = b if asked.term(b) else f"{b} {shared[2]}"
+    b, c = shared_noun(asked, found["b"], found["c"])
     near, far = asked.term(b), asked.term(c)
     if near is None or far is None:
         return None
@@ -138,7 +157,7 @@ def _over_or_under(asked: AskedWords) -> Calculated | None:
 
 def _step(asked: AskedWords) -> Calculated | None:
     found = _STEP.match(asked.words)
-    if found is None or " or " not in asked.words or _ANOTHER.search(asked.words):
+    if found is None or not _INTO_BAND.search(asked.words) or _ANOTHER.search(asked.words):
         return None
     more, less, hold = found["more"], found["less"], found["hold"] or "hold"
     return Calculated(
@@ -156,11 +175,9 @@ def _back(asked: AskedWords) -> Calculated | None:
     return Calculated(truth="'left' if x_mm > 0 else 'right'", unit=None)
 
 
-def _terms(asked: AskedWords, a: str, b: str) -> tuple[Term, Term] | None:
-    """Both terms to choose from; 'x or y offset' shares its noun."""
-    second = asked.term(b)
-    first = asked.term(a)
-    if first is None and (shared := re.fullmatch(r"(?:the )?(\w+) (.+)", b)):
-        first = asked.term(f"{a} {shared[2]}")
-    pair = alike(first, second) if first and second else None
-    return pair if pair and (pair[0].has_quantity or pair[1].has_quantity) else None
+def _half(asked: AskedWords) -> Calculated | None:
+    """The upper or the lower half of the pad, in the question's own words."""
+    found = _HALVES.fullmatch(asked.words)
+    if found is None or not _PLACED.search(asked.words) or _NOT_PLACED.search(asked.words):
+        return None
+    return Calculated(truth=f"'{found['up']}' if y_mm > 0 else '{found['down']}'", unit=None)

@@ -15,7 +15,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 from tacgrasp.lessons.dialogue.calculations.amounts import amount_of, calculated_amount
-from tacgrasp.lessons.dialogue.calculations.asked import AskedWords
+from tacgrasp.lessons.dialogue.calculations.asked import AskedWords, usual
 from tacgrasp.lessons.dialogue.calculations.checks import calculated_check
 from tacgrasp.lessons.dialogue.calculations.quantity_names import UNIT
 from tacgrasp.lessons.dialogue.calculations.terms import Term, alike
@@ -64,15 +64,39 @@ _CHANGES = tuple(
         ),
         ("-", r"(?P<a>.+?) (?:was|were|is) (?P<b>#.+?) (?:less|lower|smaller|shallower|lighter)"),
         ("+", rf"{_WHO} (?:add(?:ed)?|put|gave) (?P<b>.+?) (?:to|onto|on) (?P<a>.+)"),
+        ("+", r"(?:adding|putting) (?:another )?(?P<b>#.+?)(?: more)? to (?P<a>.+)"),
         ("-", rf"{_WHO} (?:took|take|removed?) (?P<b>.+?) (?:off|from) (?P<a>.+)"),
     )
 )
 _PRESSED = re.compile(
     rf"(?:{_WHO}|it|the (?:fingers|gripper|robot|hand)) (?:push|press|squeez|gripp?|pinch|"
-    rf"clamp)(?:ed|e|es|s)?"
+    rf"clamp|put on|add)(?:ed|e|es|s)?"
     r"(?: with)? (?P<b>#.+?) (?:(?P<more>harder|more|firmer|stronger|deeper|extra)|"
     r"(?P<less>softer|less|"
     r"lighter|gentler|shallower))"
+)
+_EASED = re.compile(
+    rf"{_WHO} (?:let go of|released?|gave up|back(?:ed)? off|ease(?:d)?(?: off)?|took off|"
+    rf"took away|drop(?:ped)?)"
+    r"(?: by)? (?P<b>.+)"
+)
+_GONE = re.compile(
+    r"(?P<share>.+) of (?P<a>.+?) (?:vanished|vanishes|was lost|were lost|disappeared|went "
+    r"away|were gone|was gone|"
+    r"is lost|fell away)"
+)
+_ON_TOP = re.compile(
+    r"(?:another )?(?P<b>#\d+ \w+)(?: more)? (?:came|comes|were put|was put|were added|was "
+    r"added)(?: on top)?"
+)
+_CHANGE_OF = re.compile(
+    r"(?:an? )?(?P<b>#\d+ \w+) (?:(?P<up>increase|rise|gain|growth)|decrease|drop|fall|"
+    r"reduction|cut) (?:of|in) (?P<a>.+)"
+)
+_MOVED = re.compile(
+    r"(?:it|the (?:object|contact|thing))(?: (?:was|were|is|had|has|been))* (?:shifted|moved|"
+    r"slid|pushed|moves|slides|shifts)"
+    r"(?: by)? (?P<b>#\d+ \w+) (?:to the )?(?P<side>left|right|up|down)(?:wards?)?"
 )
 _LOADED = re.compile(
     rf"{_WHO} (?:add(?:ed)?|put|stuck|stick|glued?|attach(?:ed)?|placed?|hung) (?:an? "
@@ -85,7 +109,7 @@ _SHARED = re.compile(
     r"(?P<a>.+?)(?: (?:equally|evenly|between them|alike))*"
 )
 _EXTRA = re.compile(
-    rf"(?:would|will|does) (?:(?:adding|another|an extra|a further) (?P<b>#\d+ "
+    rf"(?:would|will|does) (?:(?:(?:adding|another|an extra|a further) )+(?P<b>#\d+ "
     rf"(?:{UNIT}))(?: more| extra)?|"
     rf"(?P<more>#\d+ (?:{UNIT})) (?:more|extra)) (?P<rest>.+)"
 )
@@ -99,8 +123,9 @@ _RESULT = re.compile(
     r"(?:what|how (?:much|deep|heavy|large|big|strong|hard))(?: (?:force|depth|mass|weight|"
     r"area|limit))? "
     r"(?:would|will|is|are|does|do)(?: (?:that|it|we|you|there|each(?: of them)?|the (?:new|"
-    r"total|resulting|whole) "
-    r"\w+|the|remain|be|left|have|result|get|make|come|to|amount|still|then|apply|feel|carry|hold|take))*|"
+    r"total|resulting|whole|combined) "
+    r"\w+|the (?:force|depth|mass|weight|area|limit)|the|remain|be|left|have|result|become|"
+    r"read|show|get|make|come|to|amount|still|then|apply|feel|carry|hold|take))*|"
     r"(?:what|how much) (?:remains|is left|results)|"
     r"(?:what|how many|how much|which)(?: (?:percent|percentage|share))? of (?:the )?pad "
     r"(?:would|will|does) (?:it|that) (?:cover|touch)"
@@ -145,6 +170,23 @@ def _changed(asked: AskedWords, change: str) -> Term | None:
             expression=base, dimension="length" if base == "depth_mm" else "force", words=""
         )
         return _by(felt, "+" if found["more"] else "-", by)
+    for pattern in (_EASED, _ON_TOP):
+        by = asked.term(found["b"]) if (found := pattern.fullmatch(change)) else None
+        if by is not None and by.dimension in ("force", "length"):
+            return _by(usual(by.dimension), "-" if pattern is _EASED else "+", by)
+    if found := _GONE.fullmatch(change):
+        term, part = asked.term(found["a"]), asked.term(f"{found['share']} of {found['a']}")
+        if term is not None and part is not None:
+            return _by(term, "-", part)
+    if found := _CHANGE_OF.fullmatch(change):
+        term, by = asked.term(found["a"]), asked.term(found["b"])
+        return _by(term, "+" if found["up"] else "-", by) if term and by else None
+    if found := _MOVED.fullmatch(change):
+        by = asked.term(found["b"])
+        name = "x_mm" if found["side"] in ("left", "right") else "y_mm"
+        if by is not None and by.dimension == "length":
+            place = Term(expression=name, dimension="length", words=name[0])
+            return _by(place, "+" if found["side"] in ("right", "up") else "-", by)
     if found := _LOADED.fullmatch(change):
         by = asked.term(found["b"])
         if by is not None and by.dimension == "mass":

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 from tacgrasp.lessons.dialogue.calculations.quantity_names import NAMED, UNIT, WEIGHT, unit_of
@@ -37,6 +37,7 @@ class Term:
         words: The phrase in plain words.
         is_sum: Whether the expression needs brackets beside another operator.
         is_weight: Whether grams were called a weight, which has newtons too.
+        unit: Symbol of the unit of a bare number with one; ''.
     """
 
     expression: str
@@ -44,11 +45,18 @@ class Term:
     words: str
     is_sum: bool = False
     is_weight: bool = False
+    unit: str = ""
 
     @property
     def factor(self) -> str:
         """The expression as it stands beside another operator."""
         return f"({self.expression})" if self.is_sum else self.expression
+
+    @property
+    def divisor(self) -> str:
+        """The expression as it stands behind a bar."""
+        is_single = re.fullmatch(r"[\w.]+|\w+\([^()]*\)", self.expression) is not None
+        return self.expression if is_single else f"({self.expression})"
 
     @property
     def has_quantity(self) -> bool:
@@ -74,10 +82,12 @@ _ARTICLE = re.compile(
     r"amount of|level of|figure for|reading of|contact's|object's|of) )+(?=\S)"
 )
 _TRAILING = re.compile(
-    r"(?: (?:right now|just now|now|currently|presently|at present|at the moment|here|"
+    r"(?: (?:from here|right now|just now|now|currently|presently|at present|at the moment|here|"
     r"instead|today|"
     r"itself|as felt|as measured|in size|value|figure|reading|"
-    r"(?:that )?(?:you|we) (?:feel|have|measure|read|see)(?: (?:now|there|here))?))+$"
+    r"on (?:the )?(?:pad|gel)|(?:that )?(?:you|we|i)(?: are| am)? (?:feel|have|read|see|"
+    r"press|apply|"
+    r"measur|us|squeez|exert)(?:e|ing)?(?: (?:with|now|there|here|on it))*))+$"
 )
 _NUMBER = re.compile(
     rf"(?:(?:depth|force|area|mass|load|grip|weight) of )?(#\d+)(?: ({UNIT})(?: (?:of "
@@ -140,7 +150,12 @@ def _number(words: str, numbers: tuple[float, ...]) -> Term | None:
     if found[2] is None:
         return Term(expression=number_text(number), dimension=UNSAID, words=words)
     unit = UNITS[unit_of(found[2])]
-    return Term(expression=number_text(number * unit.size), dimension=unit.dimension, words=words)
+    return Term(
+        expression=number_text(number * unit.size),
+        dimension=unit.dimension,
+        words=words,
+        unit=unit.symbol,
+    )
 
 
 def _quantity(words: str, _: tuple[float, ...]) -> Term | None:
@@ -172,7 +187,7 @@ def _made(name: str, a: Term, b: Term, words: str) -> Term | None:
         share = f"(1 {sign} {b.factor} / 100)"
         return Term(expression=f"{share} * {a.factor}", dimension=a.dimension, words=words)
     if name == "ratio" and b.dimension == UNSAID:
-        return Term(expression=f"{a.factor} / {b.factor}", dimension=a.dimension, words=words)
+        return Term(expression=f"{a.factor} / {b.divisor}", dimension=a.dimension, words=words)
     pair = alike(a, b)
     if pair is None:
         return None
@@ -185,7 +200,7 @@ def _made(name: str, a: Term, b: Term, words: str) -> Term | None:
         "plus": f"{a.expression} + {b.expression}",
         "more": f"{b.expression} + {a.expression}",
         "less": f"{b.expression} - {a.factor}",
-        "ratio": f"{a.factor} / {b.factor}",
+        "ratio": f"{a.factor} / {b.divisor}",
         "mean": f"({a.expression} + {b.expression}) / 2",
         "min": f"min({a.expression}, {b.expression})",
         "max": f"max({a.expression}, {b.expression})",
@@ -207,9 +222,9 @@ def alike(a: Term, b: Term) -> tuple[Term, Term] | None:
     if a.dimension == b.dimension:
         return None if a.dimension == UNSAID else (a, b)
     if a.dimension == UNSAID:
-        return _with_dimension(a, b.dimension), b
+        return _beside(a, b), b
     if b.dimension == UNSAID:
-        return a, _with_dimension(b, a.dimension)
+        return a, _beside(b, a)
     if {a.dimension, b.dimension} == {"force", "mass"}:
         return in_newtons(a), in_newtons(b)
     if {a.dimension, b.dimension} == {"area", "fraction"}:
@@ -233,8 +248,12 @@ def in_mm2(term: Term) -> Term:
     return Term(expression=expression, dimension="area", words=term.words, is_sum=term.is_sum)
 
 
-def _with_dimension(term: Term, dimension: str) -> Term:
-    return Term(expression=term.expression, dimension=dimension, words=term.words)
+def _beside(number: Term, other: Term) -> Term:
+    """A number without a unit in that of another one, else in that of a quantity's expression."""
+    if not other.unit:
+        return replace(number, dimension=other.dimension)
+    expression = f"{number_text(UNITS[other.unit].size)} * {number.factor}"
+    return replace(number, expression=expression, dimension=other.dimension)
 
 
 def _multiple(words: str, numbers: tuple[float, ...]) -> Term | None:

@@ -83,7 +83,7 @@ def dimension_of(truth: Expression) -> str:
     """
     dimensions = [next(filter(None, map(_dimension_of_name, names)), "") for names in truth.divided]
     is_ratio = len(set(dimensions)) == 1 and bool(dimensions[0])
-    if 100 in truth.numbers and truth.is_quotient:
+    if truth.is_percentage:
         return "fraction"
     if is_ratio:
         return "ratio"

@@ -74,6 +74,25 @@ def test_a_name_over_another_of_its_dimension_is_a_percentage():
     assert right("37 mm²", "number", "area_mm2")
 
 
+def test_a_share_is_a_percentage_or_a_plain_ratio_as_its_truth_is_written():
+    assert right("9.5 %", "number", "100 * depth_mm / 2")
+    assert not right("9.5 mm", "number", "100 * depth_mm / 2")
+    assert right("0.64", "number", "force_n / limit_n")
+    assert right("64 %", "number", "force_n / limit_n")
+    assert not right("0.64", "number", "100 * force_n / limit_n")
+    assert right("0.42 N", "number", "0.5 * force_n")
+    assert right("0.25 N", "number", "mass_g * 9.81 / 1000")  # 25 g
+    assert right("-62 cN", "number", "force_n - 145 / 100")
+
+
+def test_a_choice_by_a_condition_is_one_of_its_words():
+    truth = "'above' if force_n > 1 else 'below'"
+    assert right("Below.", "choice", truth)
+    assert not right("Above.", "choice", truth)
+    assert not right("Above or below.", "choice", truth)
+    assert right("It is nearer to the palm.", "choice", "'palm' if y_mm > -5 else 'fingertip'")
+
+
 def test_a_tolerance_of_the_row_counts_in_its_unit_or_in_percent():
     assert right("0.9 N", "number", "force_n", tolerance="0.1")
     assert not right("0.9 N", "number", "force_n", tolerance="0.05")
