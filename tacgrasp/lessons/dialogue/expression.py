@@ -127,6 +127,17 @@ class Expression:
         )
         return is_hundredfold and any(isinstance(node, ast.Div) for node in nodes)
 
+    @property
+    def is_hundredth(self) -> bool:
+        """Whether something in it is divided by 100."""
+        return any(
+            isinstance(node, ast.BinOp)
+            and isinstance(node.op, ast.Div)
+            and isinstance(node.right, ast.Constant)
+            and node.right.value == 100
+            for node in ast.walk(self._tree)
+        )
+
     @cached_property
     def choices(self) -> tuple[str, ...]:
         """The words of ``a if c else b`` where it is one between quoted words; else empty."""

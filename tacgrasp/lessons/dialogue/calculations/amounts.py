@@ -171,7 +171,9 @@ _ADDED = tuple(
         r"add (?P<b>.+) (?:to|and) (?P<a>.+)",
     )
 )
-_WEIGHS = re.compile(r"(?:how much|what) (?:does|do|would|will) (?:the )?[a-z]+ weigh")
+_WEIGHS = re.compile(
+    r"(?:how much|what) (?:does|do|would|will) (?:(?:the|that|this) )?[a-z]+ weigh"
+)
 _MASS_OF = re.compile(
     r"(?:what|which|how much|how large a) (?:mass|weight)(?: would| does)? (?:weighs?|be|"
     r"is)(?: (?:exactly|just))? "

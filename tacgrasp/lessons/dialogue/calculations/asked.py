@@ -71,6 +71,11 @@ _EXTRA_ONE = re.compile(rf"\bone extra (?={UNIT}\b)|\banother (?=half (?:an? )?(
 _FULL_ONE = re.compile(rf"\b(?:one|an?) (?:full|whole|single) (?={UNIT}\b)")
 _KEEPING_SIGNS = re.compile(r",? (?:keeping|with|counting) (?:the|their) signs?\b")
 _AT_ONCE = re.compile(r" (?:at the same time|simultaneously|together|at once)$")
+_GIVEN_MASS = re.compile(
+    r"^(?:with|given|by|from|going by) the (?:mass|weight)(?: (?:that )?(?:i|we|you)(?: "
+    r"\w+){1,3}?)? (?=what|how)|"
+    r" (?:going by|given|from|by) the (?:mass|weight) .*$"
+)
 _REMARK = re.compile(r" (?:i|we) need (?:it|this|that|them) .*$| whichever (?:is|one is) \w+$")
 _AMOUNT_OF = re.compile(
     r"^(?:by )?(?:what|which) (?:amount|distance)\b|^what(?: is| are)?(?= (?:still "
@@ -179,7 +184,7 @@ def asked_words(question: str) -> AskedWords:
     has_floor = zero is not None and asked.numbers[int(zero[1][1:]) - 1] == 0
     if zero is not None and has_floor:
         words = words[: zero.start()]
-    for remark in (_ANSWERED, _TAKING_G, _PER_UNIT, _AT_ONCE, _REMARK):
+    for remark in (_GIVEN_MASS, _ANSWERED, _TAKING_G, _PER_UNIT, _AT_ONCE, _REMARK):
         words = remark.sub("", words)
     words = _AMOUNT_OF.sub("how much", words)
     is_unsigned = _UNSIGNED.search(words) is not None

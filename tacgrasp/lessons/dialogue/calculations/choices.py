@@ -76,7 +76,7 @@ _HALVES = re.compile(
 )
 _PLACED = re.compile(r"\b(?:half|side|part|where|contact|middle|center|pad|thing|gel)\b")
 _NOT_PLACED = re.compile(
-    r"\b(?:if|how|straight|band|range|window|force|limit|goal|target|depth|area|mass|edge|#\d+|should|move|go)\b"
+    r"\b(?:if|how|than|straight|band|range|window|force|limit|goal|target|depth|area|mass|edge|#\d+|should|move|go)\b"
 )
 _ARTICLE = re.compile(r"^(?:the|our|to|to the) ")
 

@@ -104,6 +104,14 @@ _PHRASES: Mapping[str, Mapping[str, str]] = {
 }
 
 
+_ALSO: Mapping[str, str] = {
+    "inside": "within", "in": "within", "x": "horizontal", "y": "vertical",
+    **dict.fromkeys(("upper", "top", "up"), "palm"),
+    **dict.fromkeys(("lower", "bottom", "down"), "fingertip"),
+}  # fmt: skip
+"""Words to choose from that a file may have, as scenes name them."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Measured:
     """A number of an answer.
@@ -146,11 +154,19 @@ class AnswerReading:
         """
         if name in CLASSES:
             return _class_words(name, self.text)
-        named = [each for each in _PHRASES.values() if choices and set(choices) <= each.keys()]
-        plain = {word: rf"\b{re.escape(word)}\b" for word in choices}
-        phrases = _PHRASES.get(name) or next(iter(named), plain)
+        phrases = _PHRASES.get(name) or _phrases_of(choices)
         text = self.text.replace("not cut", "whole")
         return [str(word) for word, pattern in phrases.items() if re.search(pattern, text, re.I)]
+
+
+def _phrases_of(choices: Sequence[str]) -> Mapping[str, str]:
+    """How answers say each of some words to choose from."""
+    plain = {word: rf"\b{re.escape(word)}\b" for word in choices}
+    for phrases in _PHRASES.values():
+        meant = {word: _ALSO.get(word, word) for word in choices}
+        if choices and set(meant.values()) <= phrases.keys():
+            return {word: f"{phrases[meant[word]]}|{plain[word]}" for word in choices}
+    return plain
 
 
 def read_answer(text: str) -> AnswerReading:

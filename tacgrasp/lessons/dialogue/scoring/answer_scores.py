@@ -5,6 +5,7 @@ Not here: asking (``tacgrasp.training.question_evaluation``).
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -79,19 +80,22 @@ def dimension_of(truth: Expression) -> str:
     """What a number measures, by the first name of its truth; '' for a word.
 
     A quotient of two names of one dimension is a ratio, and 100 of them, or of a name over a
-    number, percent. A mass times what a gram weighs is a force.
+    number, percent. A mass times what a gram weighs is a force, and a force over it a mass.
     """
-    dimensions = [next(filter(None, map(_dimension_of_name, names)), "") for names in truth.divided]
-    is_ratio = len(set(dimensions)) == 1 and bool(dimensions[0])
     if truth.is_percentage:
         return "fraction"
-    if is_ratio:
+    dimensions = [next(filter(None, map(_dimension_of_name, names)), "") for names in truth.divided]
+    has_gravity = any(
+        9.7 < 10 ** (-math.floor(math.log10(n))) * n < 9.9 for n in truth.numbers if n > 0
+    )
+    if has_gravity and set(dimensions) == {"force", "mass"}:
+        return "ratio"
+    if len(set(dimensions)) == 1 and dimensions[0]:
         return "ratio"
     first = next(filter(None, map(_dimension_of_name, truth.names)), "")
-    is_weight = first == "mass" and any(
-        str(n).strip("0.").startswith(("98", "9.8")) for n in truth.numbers
-    )
-    return "force" if is_weight else first
+    if has_gravity and first in ("force", "mass") and len(truth.names) == 1:
+        return "mass" if first == "force" else "force"
+    return "ratio" if first == "fraction" and truth.is_hundredth else first
 
 
 def _dimension_of_name(name: str) -> str:
