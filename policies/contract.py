@@ -7,6 +7,7 @@ contract (``policies.contract_steps``), keeping its limit (``primitives.force_gu
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -19,6 +20,7 @@ from policies.force_terms import (
     ROUNDING,
     RefusedError,
     most_by_words_n,
+    most_of,
     named_terms,
     scaled_terms,
     toleranced_band,
@@ -148,6 +150,8 @@ def _take_words(draft: _Draft, request: Request, task: TaskTerms, *, is_own: boo
         raise RefusedError(numbers.unread)
     if numbers.percentage:
         raise RefusedError(f"{numbers.percentage} of what is not said; name the force: '0.5 N'")
+    if numbers.masses.conflict:
+        raise RefusedError(f"it says two masses of one object: {numbers.masses.conflict}")
     if numbers.denied:
         raise RefusedError(
             f"it says what not to hold with ({numbers.denied}), and names no other force"
@@ -170,8 +174,8 @@ def _take_words(draft: _Draft, request: Request, task: TaskTerms, *, is_own: boo
         draft.set_force(
             named_terms(numbers.forces, manner, task.force), f"your words: {draft.words}"
         )
-        if mosts := [force.value_n for force in numbers.forces if force.kind == "most"]:
-            draft.named_most_n = ROUNDING * min(mosts)
+        if (most_n := most_of(numbers.forces)) < math.inf:
+            draft.named_most_n = ROUNDING * most_n
         _note_tolerances(draft, numbers.forces, numbers.rest)
     elif numbers.delta_n is not None:
         draft.words = f"{numbers.delta_n:+.3g} N"

@@ -89,15 +89,18 @@ def named_terms(forces: Sequence[Force], manner: Manner, task: ForceTerms) -> Fo
         RefusedError: A force is not finite and positive, or they exclude each other.
     """
     values = [f.value_n for f in forces if f.kind == "value"]
-    most = min((f.value_n for f in forces if f.kind == "most"), default=math.inf)
+    most, top = (
+        most_of(forces),
+        min((f.value_n for f in forces if f.kind == "most"), default=math.inf),
+    )
     least = max((f.value_n for f in forces if f.kind == "least"), default=0.0)
-    _check(forces, values, most, least)
+    _check(forces, values, top, least)
     if values:
         band = _around(forces, least)
     elif least > 0 and most < math.inf:
-        top_n = BELOW_MOST * most
-        low_n = least if least < ROUNDING * most else (1 - AROUND) * most  # 'no less and no more'
-        band = Band(low=low_n, high=top_n if top_n > 1.1 * low_n else most)
+        top_n = min(top, BELOW_MOST * most)
+        low_n = least if least < ROUNDING * top else (1 - AROUND) * top  # 'no less and no more'
+        band = Band(low=low_n, high=top_n if top_n > 1.1 * low_n else top)
     elif most < math.inf and most > most_by_words_n(task):
         return task  # it asks for nothing beyond the task's own
     elif most < math.inf:
@@ -122,6 +125,21 @@ def named_terms(forces: Sequence[Force], manner: Manner, task: ForceTerms) -> Fo
     if not values and band.middle >= task.force_n.middle:  # more than usual is asked for
         limit_n = max(limit_n, task.limit_n)
     return ForceTerms(force_n=band, limit_n=limit_n, needs=needs)
+
+
+def most_of(forces: Sequence[Force]) -> float:
+    """Largest force that words allow [N]; infinite where they bound none.
+
+    A limit beside a range may lie above it: 'between 1 and 2 N, never above 3 N'.
+    """
+    mosts = [force for force in forces if force.kind == "most"]
+    ranges = {force.words for force in forces if force.kind == "least"}
+    tops = [force.value_n for force in mosts if force.words in ranges]
+    limits = [force for force in mosts if force.words not in ranges]
+    limit_n = min((force.value_n for force in limits), default=math.inf)
+    if tops and limits and limit_n > min(tops) and not any(each.is_told for each in limits):
+        return limit_n
+    return min(*tops, limit_n, math.inf)
 
 
 def _check(forces: Sequence[Force], values: list[float], most: float, least: float) -> None:

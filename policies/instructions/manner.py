@@ -116,8 +116,20 @@ _CORRECTED = re.compile(
     rf"\b(?:no,? wait|wait,? no|{words.any_of('correction')}|(?:oh|hmm+|ah),? no)\b[ ,:.…!-]*"
 )
 _AS_USUAL = re.compile(
-    r"\b(?:normal(?:ly)?|usual(?:ly)?|ordinary|ordinarily|regular(?:ly)?|medium)\b"
+    r"\b(?:normal(?:ly)?|usual(?:ly)?|ordinary|ordinarily|regular(?:ly)?|medium|default|standard)\b|\b(?:as|like) (?:always|ever)\b|\balways do\b"
 )
+
+_COMPARES = re.compile(
+    rf"(?:\b(?:than|of|above|below|over|under|beyond|instead of|not|reduce|increase|lower|raise|cut|decrease|change|drop|forget|skip|ditch|no)|\b(?:{words.any_of('firm_word')}|{words.any_of('soft_word')}|much|careful\w*|delicate\w*) as)(?: (?:the|your|you|is|it|we|i|what))*\s*$"
+)
+"""Before 'usual': 'not as gentle as usual'."""
+_AS_EVER = re.compile(r"\b(?:as|like) (?:usual|always|ever|normal)\b")
+"""Beside a reason it says no force: 'be careful, as always'."""
+_OF_GRIP = re.compile(
+    r"(?! \w+ (?:is|was|seems|feels) (?:far |way |much )?(?:too|not|never|no)\b)"
+    r"(?:\W*$|\s*[,.;:!?]| (?:grip|grasp|hold|force|pressure|squeeze|way|manner|strength|touch|procedure|will|is|would|does|please|and|but)\b)"
+)
+"""Behind 'usual': no 'usual tray'."""
 
 _REACH = 60
 """Characters before a cue in which a denial turns it. Our choice: about ten words."""
@@ -129,12 +141,22 @@ def read_manner(text: str) -> Manner:
     What is taken back ('hard, no wait, softly') does not count.
     """
     said, *corrected = _CORRECTED.split(text)
-    if corrected and has_manner(said) and _says_manner(corrected[-1]):
-        return read_manner(corrected[-1])
+    if corrected and has_manner(said):
+        if _says_manner(corrected[-1]) or read_manner(corrected[-1]).sign < 0:
+            return read_manner(corrected[-1])
+        if not re.search(r"\w", corrected[-1]):
+            return Manner(sign=0, words=text.strip())  # 'hard. whoops'
+    text = ", ".join((said, *corrected))
     cues = [cue for sentence, asks in sentences(text) for cue in _cues(sentence, asks)]
     for level in (2, 1):
         found = [cue for cue in cues if cue.level == level]
         signs = {cue.sign for cue in found}
+        is_denied = all(cue.turned for cue in found)
+        if found and (
+            (is_denied and _asks_usual(text))
+            or (level == 1 and _asks_usual(_AS_EVER.sub("", text)))  # a reason is less than a wish
+        ):
+            return Manner(sign=0, words=", ".join(cue.words for cue in found))
         if len(signs) == 1:
             sign = signs.pop()
             said = ", ".join(dict.fromkeys(cue.words for cue in found))
@@ -145,6 +167,14 @@ def read_manner(text: str) -> Manner:
             is_conflict = level == 2 and not is_between
             return Manner(sign=0, words=said, conflict=said if is_conflict else "")
     return Manner(sign=0)
+
+
+def _asks_usual(text: str) -> bool:
+    """Whether a text asks for the usual grip, and compares none with it."""
+    return any(
+        _OF_GRIP.match(text[match.end() :]) and not _COMPARES.search(text[: match.start()])
+        for match in _AS_USUAL.finditer(text)
+    )
 
 
 def _says_manner(text: str) -> bool:

@@ -54,7 +54,7 @@ _VERB_OBJECT = re.compile(
 )
 _KEEP = re.compile(r"\b(?:not|never)(?: \w+){0,2} (?:let|releas\w*|drop|los\w*|stop)\b")
 _TURN = re.compile(
-    r";|,? (?:so|but|and) (?:today|now|this time|please|hold|use|try|we hold|we use)\b|\btoday\b|\bthis time\b"
+    r";|,? (?:so|but|and) (?:today|now|this time|please|hold|use|try|take|make|set|apply|grip|squeeze|press|we hold|we use)\b|\btoday\b|\bthis time\b"
 )
 _REPORT = re.compile(
     r"^(?:yesterday|last (?:week|time|night|year)|earlier|once|the other (?:robot|day)|another robot|my colleague|he|she|they|i|we|someone)\b"
@@ -76,8 +76,9 @@ _THIS_WHILE = re.compile(
     rf"(?:please |can you |could you |would you |now |just )*{words.any_of('hold')}(?: up| on| on to)? (?:(?:the|that|this) (?:\w+ )?one\b|(?:it|this|that|these|one)\b(?= while| for me| and| so| until|,|$))"
 )
 _USUAL_GRIP = re.compile(
+    r"\b(?:no|without(?: any)?|nothing) (?:special|fancy|extra|particular)(?: (?:treatment|handling|care|grip|attention|measures?|instructions?|wishes|requests?|requirements?))?(?=[.,;:!]| (?:for|with|about|here|needed|required|please|today|this time)\b|$)|"
     r"\bwhatever (?:force|grip|squeeze|pressure)? ?(?:you think )?(?:is |seems )?(?:right|best|needed|necessary|fit|appropriate)\b|"
-    r"\b(?:standard|usual|normal|regular|default|same|ordinary|medium|average|everyday) (?:old |amount of |level of )?"
+    r"\b(?:standard|usual|normal|regular|default|same|ordinary|medium|moderate|average|everyday) (?:old |amount of |level of )?"
     r"(?:grip|grasp|hold|force|pick|strength|pressure|squeeze)\b|"
     r"\b(?:just|simply|only) (?:normal|ordinary|regular|usual)(?:ly)?\b|"
     r"^(?:please |just |do )*(?:the |it )?same(?: (?:procedure|way|thing|force|grip))? as (?:usual|before|last time|always)\b|"
@@ -148,6 +149,8 @@ def _nothing_asked(numbers: Quantities) -> str:
     asked = [s for s, asks in sentences(numbers.rest) if not _is_question(s, asks)]
     if not asked:
         return "it is a question, no request to hold anything"
+    if numbers.masses.is_told:
+        return ""
     for sentence in asked:
         if _KEEP.search(sentence) or _THIS_WHILE.match(sentence) or _USUAL_GRIP.search(sentence):
             return ""

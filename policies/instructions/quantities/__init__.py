@@ -1,4 +1,4 @@
-"""Quantities that an instruction names: forces with what bounds them, changes of the task's, lengths.
+"""Quantities that an instruction names: forces with what bounds them, changes of the task's, lengths, masses.
 
 The text is rewritten step by step until each force has a unit and its relation before it (``numerals``,
 ``tolerances``, ``bounds``, ``elisions``); then it is read. Not here: manner, and what becomes of a

@@ -44,7 +44,7 @@ _OF_THAT = re.compile(
 _BOUND = (
     r"(?:at (?:the )?(?:very |absolute )?(?:most|least)|(?:less|more|lower|higher|harder|softer) than|"
     r"(?:no|not|never|nor) (?:under|over|above|below)|under|over|above|below|beneath|up to|exceed(?:ing)?|"
-    r"(?:max(?:imum|imally)?|min(?:imum|imally)?|limit|ceiling|cap|floor)\b\.?(?: of| is| at| to)?|"
+    r"(?:max(?:imum|imally)?|min(?:imum|imally)?|limit|ceiling|cap|floor|(?:upper|lower|top|bottom) (?:bound|limit|end)|(?:hard )?stop)\b\.?(?: of| is| at| to)?|"
     r"(?:bruis|crush|slip|slid|break|burst|squash)\w* (?:at|from))"
 )
 _SCALE = r"(?:(?:grip(?:ping)? |force |holding |squeez(?:e|ing) |clamping )?(?:strength|power|level|intensity|setting|stage|grade|gear|notch|firmness|hardness|tightness|pressure|effort|grip force))"
@@ -106,6 +106,10 @@ _ON_A_SCALE = re.compile(
     rf"(?:{_BEFORE}|{_HELD_AT}|\b(?:hold|grip|squeeze)(?: it)? )(?P<a>{NUMBER})\s*(?:/|out of|of|on a scale of)\s*(?:\d+ to )?{_BARE}(?=\s*(?:$|[.,;:!?)]))"
 )
 """'At 7 out of 10'."""
+_THAN_THAT = re.compile(
+    rf"(?P<by>{NUMBER})\s*(?:(?P<unit>(?:{UNIT})\b)|(?P<percent>%|percent|per cent))? (?:(?P<more>{_MORE})|{_LESS}) than (?:that|this|it)\b"
+)
+"""'It was 1 N; use 0.2 less than that'."""
 
 
 def written_out(text: str) -> tuple[str, str]:
@@ -126,7 +130,7 @@ def written_out(text: str) -> tuple[str, str]:
         (_MULTIPLE, _multiplied),
     ):
         text = pattern.sub(reckoned, text)
-    text = _with_multiples_of_that(text)
+    text = _with_differences_to_that(_with_multiples_of_that(text))
     if re.search(rf"{NUMBER}\s*-?\s*(?:{UNIT})\b", text):
         for half in _HALVES:
             text = half.sub("0.5", text)
@@ -170,6 +174,28 @@ def _with_multiples_of_that(text: str) -> str:
             one = f"{times * number(before[-1]['a']):.6g} {before[-1]['u']}"
             at = match.start() + len(one)
             text = text[: match.start()] + one + text[match.end() :]
+    return text
+
+
+def _with_differences_to_that(text: str) -> str:
+    """'It was 1 N; use 0.2 less than that' -> 'it was 1 N; use no wait, 0.8 N'."""
+    at = 0
+    while match := _THAN_THAT.search(text, at):
+        at = match.end()
+        before = list(re.finditer(_ONE, text[: match.start()]))
+        if not before:
+            continue
+        that, unit = number(before[-1]["a"]), before[-1]["u"]
+        by = number(match["by"]) * (
+            that / 100
+            if match["percent"]
+            else in_newtons("1", match["unit"] or unit) / in_newtons("1", unit)
+        )
+        one = f"{that + (by if match['more'] else -by):.6g} {unit}"
+        if not re.search(rf"{BEFORE_BOUND}$", text[: match.start()]):
+            one = f"no wait, {one}"  # it stands for the other
+        at = match.start() + len(one)
+        text = text[: match.start()] + one + text[match.end() :]
     return text
 
 

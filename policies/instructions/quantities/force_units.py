@@ -33,10 +33,10 @@ UNITS: tuple[tuple[str, float], ...] = (
     (rf"(?:{_POUND}{_OF_FORCE}|lbf)", POUND_N),
     (rf"(?:{_OUNCE}{_OF_FORCE}|ozf)", OUNCE_N),
 )  # fmt: skip
-_MASSES = ((_KILO, 1000 * GRAM_N), (_GRAM, GRAM_N), (_POUND, POUND_N), (_OUNCE, OUNCE_N))
+MASSES = ((_KILO, 1000 * GRAM_N), (_GRAM, GRAM_N), (_POUND, POUND_N), (_OUNCE, OUNCE_N))
 """Masses stand for a force only after a word such as 'with' or 'at most'."""
 UNIT = "|".join(unit for unit, _ in UNITS)
-LOOSE = "|".join(unit for unit, _ in _MASSES)
+LOOSE = "|".join(unit for unit, _ in MASSES)
 ALONE = r"(?<![\d.,])(?<!\de)(?<!\de[+-])"
 NUMBER = (
     ALONE
@@ -52,7 +52,7 @@ def in_newtons(digits: str, unit: str) -> float:
     """
     if digits.strip("- ") in ("infinite", "infinity", "unlimited", "inf", "nan"):
         return float("inf")
-    for pattern, unit_n in (*UNITS, *_MASSES):
+    for pattern, unit_n in (*UNITS, *MASSES):
         if re.fullmatch(pattern, unit):
             return number(digits) * unit_n
     raise ValueError(f"no unit of force: {unit!r}")

@@ -34,6 +34,8 @@ _WITHIN = re.compile(r"(?:between|from|in|within)\b")
 _CORRECTION = re.compile(
     rf"\b(?:no,? wait|wait,? no|make (?:that|it)|{english.any_of('correction')}|in other words|i\.e\.|meaning|sorry|(?:hmm+|oh),? no|actually|(?:or )?better(?: still| yet)?(?=[ ,:]*$))\b[ ,:-]*"
 )
+_TAKEN_BACK = re.compile(rf"[\s.,;:!–—-]*\b{english.any_of('correction')}[\s.!]*$")
+"""Behind a force: nothing takes its place ('1 N. Scratch that.')."""
 _CONDITION = re.compile(
     r"\bif\b.*?(?=\b(?:use|hold|grip|apply|take|go|try|squeeze|press|then)\b)|\bif not\b"
 )
@@ -109,8 +111,9 @@ def read_forces(text: str) -> tuple[list[Force], str, str]:
                         kind = _kind_corrected([force for force, _ in found])
                     found = [(force, False) for force, _ in found]
             kept = not (_PAST.search(clause) or is_denied)
-            if kind == "value" and _NOT_WITH.search(left):
-                denied = words
+            is_taken_back = bool(_TAKEN_BACK.match(text[stop:]))
+            if is_taken_back or (kind == "value" and _NOT_WITH.search(left)):
+                denied, kept = words, kept and not is_taken_back
             force = Force(kind=kind, value_n=ends[0], words=words, within_n=within_n)
             found.append((force, kept))
         rest, end = f"{rest}{left} {MARK} ", stop

@@ -66,6 +66,12 @@ _UNIT = r"(?=[ -]*(?:of )?(?:an? |1 )?(?:single |full |whole )?(?:milli|kilo|new
 _OF_A = r"(?:[ -]+(?:of )?(?:an?|1)(?= ))?"
 
 
+_FIRST_PART = re.compile(
+    rf"\b(?P<between>between )?(?:(?P<n>an?|\d+)[ -])?(?P<part>{_PART})(?P<link>(?: ?(?:-|–) ?| (?:to|or|up to|through) |(?(between) and | to ))"
+    rf"(?=(?:(?:an?|\d+)[ -])?(?:{_PART}\b{_OF_A}|\d*\.?\d+)?{_UNIT}))"
+)
+"""'A quarter to three quarters of a newton': the first part is of a newton too."""
+
 _UNDER_TEN = "|".join(word for word, value in _SMALL.items() if 0 < value < 10)
 _SHARED_SCALE = re.compile(
     rf"(?P<before>\bbetween )?(?<![.,\d])(?<!ty[ -])(?<!hundred )(?<!thousand )(?<!point )(?<!and )\b(?P<a>{_UNDER_TEN}|[1-9])"
@@ -105,6 +111,9 @@ def in_digits(text: str) -> str:
         text,
     )
     text = re.sub(r"\bbetween (?:(?:an?|one|1) )?half and(?= \d)", "between 0.5 and", text)
+    text = _FIRST_PART.sub(
+        lambda m: f"{m['between'] or ''}{_count(m['n']) * _part(m['part']):.6g}{m['link']}", text
+    )
     text = re.sub(rf"\b(?:(an?|\d+)[ -])?({_PART})\b{_OF_A}{_UNIT}", _fraction, text)
     text = re.sub(
         r"\b(\d)/(\d)" + _OF_A + _UNIT,

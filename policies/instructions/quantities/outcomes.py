@@ -54,13 +54,11 @@ _AT = (
 )
 _BY = r" by(?! (?:the|a|an|my|our|another|up)\b)"
 
-_LESS = (
-    r"(?: (?:any(?:thing|where)? |forces? |loads? |a force )?(?:less than|below|under|lower than))?"
-)
-_MORE = r"(?: (?:any(?:thing|where)? |forces? |loads? |a force )?(?:more than|above|over|beyond|higher than|exceeding))?"
+_LESS = r"(?: (?:any(?:thing|where)? |forces? |loads? |a force )?(?:(?:less|lower|weaker|softer|gentler|lighter|looser|smaller) than|below|under|beneath))?"
+_MORE = r"(?: (?:any(?:thing|where)? |forces? |loads? |a force )?(?:(?:more|higher|harder|firmer|stronger|tighter|greater|larger) than|above|over|beyond|exceeding))?"
 
 _SLIPPED_AT = re.compile(
-    rf"\b{_SLIPPED}{_FILL}(?:{_AT}|(?<!dropped)(?<!fell){_BY}){_LESS}{_ROUGHLY}\s*$"
+    rf"\b{_SLIPPED}{_FILL}(?:{_AT}|(?<!dropped)(?<!fell){_BY}|(?= (?:below|beneath)\b)){_LESS}{_ROUGHLY}\s*$"
 )
 _HURT_AT = re.compile(
     rf"\b{_HURT}{_FILL} ?(?:{_AT}|{_BY}|(?:was |is |were |has been |have been |be )?(?:begins?|starts?|began|started|sets? in|occurs?|occurred|observed|seen|found|happens?|happened|appears?|appeared|visible)(?: \w+ly)? (?:at|from|with|above|beyond)){_MORE}{_ROUGHLY}\s*$"

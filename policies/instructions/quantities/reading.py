@@ -7,7 +7,7 @@ with tolerances, ranges, factors on the task's force, and lengths with what they
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from policies.instructions.quantities.bounds import with_plain_bounds
 from policies.instructions.quantities.elisions import written_out
@@ -15,10 +15,11 @@ from policies.instructions.quantities.factors import denied_factor, read_delta, 
 from policies.instructions.quantities.force import Force
 from policies.instructions.quantities.force_units import NUMBER, UNIT, number
 from policies.instructions.quantities.forces import read_forces
+from policies.instructions.quantities.masses import Masses, without_masses
 from policies.instructions.quantities.numerals import in_digits
 from policies.instructions.quantities.places import AREA, place_words, read_lengths
 from policies.instructions.quantities.tolerances import with_plain_tolerances, without_lone
-from policies.instructions.quantities.unknown_units import unknown_force
+from policies.instructions.quantities.unknown_units import undecided_force, unknown_force
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -39,6 +40,7 @@ class Quantities:
         percentage: A percentage or tolerance of nothing, where a force would stand; '' for none.
         place: Words about the place on the pad, which are not read; '' for none.
         denied: Words of a force that is not to be used, where no other one is named; '' for none.
+        masses: Masses that are said of objects; they are no forces.
         rest: The plain text with each quantity and its relation replaced by ``MARK``.
     """
 
@@ -55,6 +57,7 @@ class Quantities:
     percentage: str = ""
     place: str = ""
     denied: str = ""
+    masses: Masses = field(default_factory=Masses)
     rest: str = ""
 
 
@@ -77,6 +80,7 @@ _PERCENT_OF_NOTHING = re.compile(
 def read_quantities(text: str) -> Quantities:
     """Read the numbers of a plain text (``policies.instructions.english.text.plain``)."""
     text = _ELLIPSIS.sub(r"no \2 than \3 \1", in_digits(text))
+    text, masses = without_masses(text)
     text = re.sub(rf"({NUMBER}), (?=newtons?\b)", r"\1 ", text)
     text = re.sub(r"(?<=\d)['\u00a0\u202f ](?=\d{3}\b(?! ?mm))", "", text)  # 1 400 mN
     text = re.sub(rf"({NUMBER})\s?-?ish\b", r"\1", text)
@@ -87,13 +91,14 @@ def read_quantities(text: str) -> Quantities:
     text = with_plain_bounds(text)
     text = _CHAIN.sub(r"between \1 and \2 \3", text)
     text = _PAIR.sub(r"between \1 and \2 \3", text)
-    unread = unknown_force(text)
+    plainly, unread = text, unknown_force(text)
     text, unitless = written_out(text)
     pressure = _PRESSURE.search(text)
     slip_mm, depth_mm = read_lengths(text)
     area = AREA.search(text)
     delta_n, text = read_delta(text)
     forces, denied, text = read_forces(text)
+    unread = unread or undecided_force(plainly, is_bounded=bool(forces))
     before_factor = text
     factor, factor_words, text = read_factor(text)
     if factor is not None and not forces:
@@ -114,5 +119,6 @@ def read_quantities(text: str) -> Quantities:
         percentage=lone if percentage is None else percentage[1],
         place=place_words(text),
         denied=denied,
+        masses=masses,
         rest=text,
     )

@@ -18,12 +18,12 @@ _BELOW = re.compile(
     r"shy of|sub)(?: the| a)?\s*-?$|<\s*$"
 )
 _MOST = re.compile(
-    r"(?:\b(?:less|lower|smaller) than or equal to|\b(?:at|under|below) or (?:under|below|at)|\b(?:ends|tops out|finish\w*|finishes)(?: \w+){0,3} (?:at|before)|\bstop\w*(?: \w+){0,3} before|\bstop (?:squeez|press)ing at|"
+    r"(?:\b(?:less|lower|smaller) than or equal to|\b(?:at|under|below) or (?:under|below|at)|\b(?:ends|tops out|finish\w*|finishes)(?: \w+){0,3} (?:at|before)|\bstop\w*(?: \w+){0,3} before|(?<!not )(?<!never )\bstop(?:s|ping)? (?:(?:squeez|press)ing )?at|"
     r"\bat (?:the )?(?:very |absolute )?most|\batmost|\bhard stop(?: at| of| is)?|\bup to|\b(?:as (?:hard|much|high|firm|far) as|no further than)|"
     r"\bmax(?:imum|imal(?:ly)?|ed)?\.?(?: \w+){0,3}?(?: of| is| at| to|:| =|=)?|"
     r"\blimit(?:s|ed|ing)?(?: \w+){0,3}?(?: to| of| at| is|:| =|=)?|"
     r"\bcap(?:ped|ping)?(?: \w+){0,3}?(?: at| to| of| is|:| =|=)?|\bceiling(?: of| is| at|:| =|=)?|"
-    r"\bupper (?:\w+ )?(?:limit|bound|end)(?: \w+){0,2}?(?: of| is| at|:| =|=)?|\bpeak(?: \w+){0,2}?(?: of| is| at|:| =|=)?|"
+    r"\b(?:upper|top) (?:\w+ )?(?:limit|bound|end)(?: \w+){0,2}?(?: of| is| at|:| =|=)?|\bpeak(?: \w+){0,2}?(?: of| is| at|:| =|=)?|"
     r"<=|≤|=<|\bnot to exceed|\bat (?:the )?worst|\bworst case|\bwithin|\bbounded (?:above )?(?:by|at)|\b(?:not|never)(?: let it)? (?:go|push|squeeze|press)(?: \w{1,4})?|\b(?:top|max|peak|level)(?:p?ing|s|p?ed)?(?: \w+)?(?: out)? at|\b(?:restrict|confin|constrain|throttl)\w*(?: \w+){0,3}? (?:to|at|by)|\b(?:may|can|could|might)(?: only| just| at most)? (?:be (?:raised|increased)|rise|go|climb|increase|grow|build|reach|extend)(?: up)?(?: to)?|\b(?:not|never|without|avoid\w*)(?: (?:ever|let|the|force|it|grip|even|quite|to|be|going|you|allow\w*|pressure|have|want|go|come|rise)){0,5} (?:reach(?:es|ing)?|hit(?:s|ting)?|get(?:s|ting)? (?:up )?to|attain\w*|ris(?:e|es|ing) to|climb\w* to|go(?:ing|es)? (?:up |all the way )?to)|\b(?:budget|allowance)(?: of| is|:)?|\bno more than|\bnowhere near|\b(?:allow(?:ed)?|permit(?:ted)?)(?: is (?:until|till|up to))?(?: (?:up )?to(?: (?:use|reach|rise to|climb to|go(?: up)? to))?)?|"
     r"\b(?:ease|eases|back|let)(?: \w+){0,2} (?:once|when|as soon as|at)(?: (?:you|it|we))?(?: (?:feel|reach|hit|see|measure|get to|read)\w*)?|\bfar (?:away )?from|\b(?:not|never)(?: (?:even|anywhere|get|go|come|be))* (?:close|near)(?: to)?|\bf[_ ]?max\s*[:=]?)"
     r"(?: (?:about|around|roughly))?\s*$"
@@ -31,7 +31,7 @@ _MOST = re.compile(
 _LEAST = re.compile(
     r"(?:\b(?:more|greater|higher|larger) than or equal to|\b(?:at|over|above) or (?:over|above|at)|"
     r"\bat (?:the )?(?:very |absolute )?least|\batleast|\bmin(?:imum|imal(?:ly)?)?\.?(?: \w+){0,3}?(?: of| is| at|:| =|=)?|"
-    r"\blower (?:\w+ )?(?:limit|bound|end)(?: \w+){0,2}?(?: of| is| at|:| =|=)?|\bfloor(?: \w+){0,3}?(?: of| is| at|:| =|=)?|"
+    r"\b(?:lower|bottom) (?:\w+ )?(?:limit|bound|end)(?: \w+){0,2}?(?: of| is| at|:| =|=)?|\bfloor(?: \w+){0,3}?(?: of| is| at|:| =|=)?|"
     r">=|≥|=>|\bno less than|\b(?:it|berry|fruit|this|that|one|strawberry|thing) (?:really |always )?(?:needs|requires|takes)|\bf[_ ]?min\s*[:=]?|\bstarting (?:at|from)|\bbottom out at)"
     r"(?: (?:about|around|roughly))?\s*$"
 )
@@ -48,13 +48,13 @@ _UNWANTED = (
 """What is said of a force that is too large."""
 _MOST_AFTER = re.compile(
     r"\s*(?:-|–|,|:)?\s*(?:(?:at |as )?(?:a |the )?max(?:imum|imal)?\b(?!\.?(?: of| is|:| =)? ?\d)|tops\b|at (?:the )?(?:very |absolute )?most\b|"
-    r"(?:or|and) (?:a (?:little|bit|touch) |slightly |even )?(?:less|below|under|lower|lighter|softer|gentler|smaller)\b|(?: [a-z]+){1,3} at (?:the )?(?:very |absolute )?most\b|"
+    r"(?:or|and) (?:a (?:little|bit|touch) |slightly |even )?(?:less|below|under|lower|lighter|softer|gentler|smaller)\b(?! (?:no|any|all)\b)|(?: [a-z]+){1,3} at (?:the )?(?:very |absolute )?most\b|"
     r"[;,.]? ?(?:and )?(?:do not|never|not|but not) (?:\w+ ){0,2}(?:past|over|above|beyond|exceed|higher than) (?:it|that|this)\b|"
-    r"(?:,? ?(?:and|but|yet|though) )?(?:absolutely )?(?:no|not|never|without)(?! need)(?: \w+){0,2} (?:more|higher|harder|above|over|further|beyond|past)\b"
+    r"(?:,? ?(?:and|but|yet|though) )?(?:absolutely |(?:under|in|on|by|at) )?(?:no|not|never|without)(?! need)(?: \w+){0,2} (?:more|higher|harder|above|over|further|beyond|past)\b"
     r"(?!,? (?:and |or )?(?:no|not|nor|never)(?: \w+)? less)(?! (?:no|not) less)|"
     r"(?:is|as|being)(?: (?!lower)\w+){0,3} (?:limit|max(?:imum)?|ceiling|cap|most|end of the line|last word)\b|(?:limit|ceiling|cap)\b(?!(?: of| is|:| =)? ?\d)|"
     r"(?:(?:an?|the|my|your|as|is|as an?|as the) )*upper (?:\w+ )?(?:bound|limit|end)\b|"
-    rf"(?:,? ?(?:and|but) (?:it|that|this) )?(?:{_BEEN} )?(?:already |way |far |just |clearly |evidently )*too (?:much|hard|firm|high|strong|tight|rough|heavy|great)|and under\b|"
+    rf"(?:,? ?(?:and|but) (?:it|that|this) )?(?:{_BEEN} )?(?:already |way |far |just |clearly |evidently )*(?:(?:you (?:are|have|would be|were) )?(?:going|gone|squeezing|pressing|gripping) (?:way |much |far )?)?too (?:much|far|hard|firm|high|strong|tight|rough|heavy|great)|and under\b(?! (?:no|any|all)\b)|"
     rf"at the (?:outside|utmost|very top)\b|to (?:play|work) with\b|(?:is|as) (?:the|my|our|a) (?:\w+ )?(?:roof|lid|wall|red line|end of it)\b|{_BEEN} (?:already |strictly |absolutely |still |simply )*{_UNWANTED}|"
     rf"(?<!, )(?:already |surely |will |would |can |could |may |might |has |had |have )*{_HARMS}(?= (?:it|the|this|that|my|our|one|some|berr\w+|strawberr\w+|fruits?|a|easily|already|them)\b|\s*(?:$|[.;!,]))|"
     rf"(?:will|would|is where \w+|is when \w+) (?:already |surely )?{_HARMS}|(?:it|they|the (?:(?:last|previous|first|other) )?\w+) (?:already |surely )?{_HARMS})"
@@ -63,7 +63,7 @@ _MOST_AFTER = re.compile(
 _LEAST_AFTER = re.compile(
     r"\s*(?:-|–|,|:|\+)?\s*(?:(?:at |as )?(?:a |the )?min(?:imum)?\b(?!\.?(?: of| is|:| =)? ?\d)|(?:(?:or|and) )?upwards?\b|(?:or|and) (?:a (?:little|bit|touch) |slightly |even )?(?:more|above|higher|over|harder|firmer|better|greater|larger|up|upwards?)\b|(?: [a-z]+){1,3} at (?:the )?(?:very |absolute )?least\b|[;,.]? ?(?:and )?(?:do not|never|not|but not) (?:\w+ ){0,2}(?:under|below|beneath|lower than) (?:it|that|this)\b|"
     r"at (?:the )?(?:very |absolute )?least\b|plus\b|"
-    r"(?:,? ?and )?(?:absolutely )?(?:no|not|never)(?: \w+){0,2} (?:less|lower|softer|under|below)\b|"
+    r"(?:,? ?and )?(?:absolutely |(?:under|in|on|by|at) )?(?:no|not|never)(?: \w+){0,2} (?:less|lower|softer|under|below)\b|"
     r"(?:is|as|being)(?: \w+){0,3} (?:minimum|min|floor|least)\b|(?:floor)\b|"
     r"(?:(?:an?|the|my|your|as|is|as an?|as the) )*lower (?:\w+ )?(?:bound|limit|end)\b|"
     r"(?:(?:is|was|were|would be|are|will be|will|proved|turned out) )?(?:(?:to be )?not (?:do|enough)|(?:just |way |far )?too (?:little|light|soft|low|weak))|"
@@ -94,14 +94,18 @@ _RISES = re.compile(
     r"\b(?:go|get|rise|raise|increase|up|ramp|climb|bring|turn|crank|squeeze|more)\b[^.;,]{0,25}\bto(?: (?:about|around|roughly))?\s*$"
 )
 _REACHED = re.compile(
-    r"\b(?:if|when|whenever|once|should|as soon as|the moment)\b(?: \w+){1,3} (?:reach(?:es|ed)?|hits?|gets? to|attains?|shows?|reads?|climbs? to|rises? to)\s*$"
+    r"\b(?:if|when|whenever|once|should|as soon as|the moment)\b(?: [\w']+){1,4} (?:reach(?:es|ed)?|feels?|sees?|measures?|hits?|gets? to|attains?|shows?|reads?|climbs? to|rises? to)\s*$"
 )
 _IS_REACHED = re.compile(
     r"\s*(?:is|are|has been|was|were) (?:reached|hit|attained|there|shown|felt)\b"
 )
 _ONCE = re.compile(r"\b(?:if|when|whenever|once|as soon as|the moment|should)\b[^.;,]{0,20}$")
+_TOO_FAR = re.compile(
+    r"\b(?:too (?:far|much|hard|high|strong|tight)|over(?:did|done|doing|shot|stepped))\b[^.;,#]*$"
+)
+"""'You have gone too far if you hit 1 N'."""
 _ENOUGH = re.compile(
-    r"[^#]{0,25}?\b(?:stop|not|no more|never|enough|ease|back off|quit|halt|no further|hold there|cut)\b"
+    r"[^#]{0,40}?\b(?:stop|not|no more|never|enough|ease|back off|quit|halt|no further|hold there|cut|too (?:far|much|hard|high|strong|tight)|over(?:did|done|doing|shot|stepped)|gone past|is the end|all over)\b"
 )
 """Behind a force that is reached: it ends there."""
 _EITHER_WAY = re.compile(
@@ -111,6 +115,11 @@ _EITHER_WAY = re.compile(
 _THAT_AFTER = re.compile(
     r"[^.;#\d]{0,40}?\b(below|under|beneath|above|over) (?:that|it)\b(?! (?:goes|is|will))"
 )
+_STOPS_AT = re.compile(r"\bstop\w* (?:\w+ )?at\s*$")
+_HELD_THERE = re.compile(
+    r"\s*,? (?:and|then) (?:then )?(?:hold|keep|stay|remain)(?: (?:it|that|the \w+))? (?:there|steady|like that)\b"
+)
+"""'Stop at 0.9 N and hold it there' holds with 0.9 N."""
 _EXACT_AFTER = re.compile(
     r"[.,;:]?\s*(?:and )?(?:(?:not|no) (?:a \w+ )?(?:more|higher|harder)(?:,| and| or|\.)* ?(?:not|no|nor) "
     r"(?:a \w+ )?(?:less|lower|softer)|(?:not|no) (?:a \w+ )?(?:less|lower|softer)(?:,| and| or|\.)* ?(?:not|no|nor) "
@@ -152,7 +161,7 @@ _SLIPPING = re.compile(
     rf"(?:^|[,;:]|\b(?:it|berry|fruit|one|this|thing|they|and|or|but|these|berries)) ?{_SLIPS}(?: \w+){{0,3}} (?:under|below|at|with|with less than)\s*$"
 )
 _TOO_MUCH = re.compile(
-    rf"[^.;#]{{0,20}}\b(?:too much|out of|no go|not ok\w*|pointless|useless|no (?:use|sense|point|need|good)|wast\w+|{_UNWANTED}|(?:not|never) (?:be )?(?:needed|necessary|required|called for|wise|good|wanted|used)|{_HARMS})"
+    rf"[^.;#]{{0,30}}\b(?:(?<!not )(?<!never )too (?:much|far|hard)|out of|no go|not ok\w*|pointless|useless|no (?:use|sense|point|need|good)|wast\w+|{_UNWANTED}|(?:not|never) (?:be )?(?:needed|necessary|required|called for|wise|good|wanted|used)|{_HARMS})"
 )
 _TOO_LITTLE = re.compile(
     rf"[^.;#]{{0,20}}\b(?:will not do|not (?:allowed|acceptable|permitted|ok\w*|on)|forbidden|banned|not (?:enough|sufficient)|too little|insufficient|useless|will not hold|no good|not acceptable|{_SLIPS}|let it|(?:gets?|is|becomes?|feels) (?:loose|shaky|unstable|slippery))"
@@ -163,7 +172,8 @@ def _end_of_conditional_most(left: str, right: str) -> int | None:
     """How much behind a force says that it is an end to be reached; None where it is none."""
     reached = _IS_REACHED.match(right) if _ONCE.search(left) else None
     cut = reached.end() if reached else 0
-    if (reached or _REACHED.search(left)) and _ENOUGH.match(right[cut:]):
+    reaches = reached or _REACHED.search(left)
+    if reaches and (_ENOUGH.match(right[cut:]) or _TOO_FAR.search(left)):
         return cut  # 'once 1 N is reached, stop'
     conditional = _CONDITION.search(re.split(r"[.;]\s", left)[-1])
     return 0 if (conditional and _RISES.search(left)) or _ONLY_IF.match(right) else None
@@ -174,6 +184,8 @@ def relation(left: str, right: str) -> tuple[Kind, int, int]:
     if match := _THAT_AFTER.match(right):
         return ("most" if match[1] in ("below", "under", "beneath") else "least"), len(left), 0
     if _EITHER_WAY.search(left):
+        return "value", len(left), 0
+    if _STOPS_AT.search(left) and _HELD_THERE.match(right):
         return "value", len(left), 0
     if exact := _EXACT_AFTER.match(right):
         return "value", len(left), exact.end()

@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from policies.instructions.english import words
 from policies.instructions.quantities.force_units import ALONE, LOOSE, NUMBER, UNIT, in_newtons
 from policies.instructions.quantities.tolerances import TOLERANCE, band_of
 
@@ -30,6 +31,10 @@ _FORCE_WORD = re.compile(
     r"below|exceed\w*|max\w*\.?|min\w*\.?|limit\w*|force|of|between|from|set|just|only|approximately|nearly|by)|"
     r"[:=<>≤≥~])(?: (?:a|an|the|about|around|roughly|exactly|just|only|some))?\s*$"
 )
+_CORRECTED = re.compile(
+    rf"\W*(?:(?:no|sorry|wait|actually|make (?:that|it)|{words.any_of('correction')})\W+)+"
+)
+"""Between a force and a mass: '100 g, no, 150 g'."""
 _MASS_WORD = re.compile(r"\b(?:weigh\w*|mass|heavy|scale|berry of|fruit of)\b[^.;]*$")
 _BOUNDED = re.compile(
     r"\s*,?\s*(?:(?:and )?(?:no|not) (?:more|less|over|above|under|below|higher|a gram more)|at (?:the )?(?:very |absolute )?(?:most|least)|max\w*|min\w*|tops?|or (?:less|more|under|over))\b(?! weight)"
@@ -43,7 +48,7 @@ _THING = re.compile(
 
 def force_spans(text: str) -> Iterator[tuple[int, int, list[float], tuple[float, float] | None]]:
     """Begin, end, forces and tolerance [N] of every range and single force, in order."""
-    at = 0
+    at = end = 0  # end: that of the last force
     while at < len(text):
         span = _RANGE.search(text, at)
         one = _FORCE.search(text, at)
@@ -56,10 +61,11 @@ def force_spans(text: str) -> Iterator[tuple[int, int, list[float], tuple[float,
                 [in_newtons(span["a"], first), in_newtons(span["b"], unit)],
                 None,
             )
-            at = span.end()
+            at = end = span.end()
         elif one:
-            if _is_force(one, text):
+            if _is_force(one, text) or (end and _CORRECTED.fullmatch(text[end : one.start()])):
                 yield one.start(), one.end(), [in_newtons(one["a"], one["ua"])], band_of(one)
+                end = one.end()
             at = one.end()
         else:
             return

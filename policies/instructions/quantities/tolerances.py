@@ -26,6 +26,8 @@ _PLAIN: tuple[tuple[str, str], ...] = (
     (rf"({_ONE}(?: of [a-z]+| force| grip)*)\s*,?\s*\(?(?:to )?within (?={_BARE}\s*{_PART})", r"\1 ± "),
     (rf"(?:,|\bwith|\band|\bto)?\s*\b(?:an? |the )?{_NOUN}(?: of| is| to|:)?\s*(?:±\s*)?({_BARE}\s*{_PART})", r" ± \1"),
     (rf"(?:,|\bwith|\band|\bto)?\s*(?:\b(?:an? |the ))?(?:±\s*)?\b({_BARE}\s*{_PART})[ -]{_NOUN}\b", r" ± \1"),
+    (rf"\b(?:to )?within ({_BARE}\s*{_PART}) (?:of|either (?:way|side) of) ({_ONE})", r"\2 ± \1"),
+    (rf"({_ONE}),? ({_BARE}\s*{_PART}) (?:either way|each way|up or down|on either side)\b", r"\1 ± \2"),
     (rf"\baccurate to ({_BARE}\s*{_PART})", r" ± \1"),
     (rf"({_ONE})\s*\(?\+\s*({_BARE})\s*[/,]\s*-\s*({_BARE})\s*\)?(?!\s*{_PART})(?![\d.,])", r"\1 (+\2/-\3)"),
     (rf"({_ONE})\s*\(?-\s*({_BARE})\s*[/,]\s*\+\s*({_BARE})\s*\)?(?!\s*{_PART})(?![\d.,])", r"\1 (+\3/-\2)"),

@@ -47,6 +47,34 @@ _MALFORMED = re.compile(
 )
 
 
+_VAGUE = re.compile(
+    r"\b(?:some|(?:(?P<few>(?:a (?:good )?|only |just |the |with |use |using |apply |about |than |most )few|several)|"
+    r"(?:a |any )?(?:handful|number|bunch|dozens|hundreds|lots?|loads?) of|umpteen|(?:god|who) knows how many)(?(few)(?: \d+(?:\.\d+)?)?)(?: odd)?)"
+    r" (?:milli-?|kilo-?)?newtons?\b(?! (?:more|less|fewer|extra|harder|firmer|tighter|softer|gentler|lighter|higher|lower|above|below)\b)"
+)
+"""'A few newtons', 'several hundred millinewtons', whose hundred is in digits by then."""
+_DENIED_TWICE = re.compile(
+    r"\bnot (?:want|wish|like|need|ask|expect)\b[^.;:,#\d]{0,30}?\b(?:not|never|avoid) (?:to )?(?:exceed|go (?:over|above|beyond|past)|pass|top|surpass|cross|(?:use|apply) (?:more|less) than|(?:fall|drop|go) (?:below|under))"
+)
+
+
+def undecided_force(text: str, *, is_bounded: bool) -> str:
+    """Why the words of a plain text leave a force undecided; '' where they do not.
+
+    Args:
+        text: Plain text, its numbers in digits.
+        is_bounded: Whether it names a force in numbers.
+    """
+    if match := _DENIED_TWICE.search(text):
+        return f"{match[0]!r} denies a bound twice; say 'at most' or 'at least'"
+    match = _VAGUE.search(text)
+    return (
+        f"{match[0]!r} is no number; say how many, as in '1.5 N'"
+        if match and (re.search(r"\d", match[0]) or not is_bounded)
+        else ""
+    )
+
+
 def unknown_force(text: str) -> str:
     """Why a number of a plain text is no force although it stands for one; '' for none.
 

@@ -144,3 +144,41 @@ def test_a_force_that_bounds_nothing_stays_the_target(text):
 @pytest.mark.parametrize("text", ["do not stop short of 1 N", "0.5 N was not enough"])
 def test_a_least_force_stays_one(text):
     assert [kind for kind, _ in forces(text)] == ["least"]
+
+
+@pytest.mark.parametrize(
+    ("text", "low_n", "high_n", "most_n"),
+    [
+        ("Work in the 0.4-0.8 N band, with a hard stop at 1.5 N.", 0.4, 0.8, 1.5),
+        ("1 to 2 newtons, stop at three.", 1, 2, 3),
+        ("Between 0.5 and 1 N, never above 1.4 N.", 0.5, 1, 1.4),
+        ("Between 0.5 and 1 N, never above 1 N.", 0.5, 0.9, 1),
+        ("Between 1 and 2 N, at most 1.5 N.", 1, 1.35, 1.5),
+        ("0.4 to 0.8 N; the last one cracked at 1.5 N.", 0.4, 0.72, 0.8),
+    ],
+)
+def test_a_limit_beside_a_range_may_lie_above_it(text, low_n, high_n, most_n):
+    contract = read_contract(text, terms(), {}).terms
+    assert (contract.force_n.low, contract.force_n.high) == pytest.approx((low_n, high_n))
+    assert contract.limit_n == pytest.approx(0.99 * most_n)
+
+
+@pytest.mark.parametrize(
+    "text", ["I do not want you to not exceed 1 N.", "I do not want you to never go over 1 N."]
+)
+def test_a_bound_that_is_denied_twice_is_refused(text):
+    assert "denies a bound twice" in read_contract(text, terms(), {}).refused
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "If you feel 4 N on the peg you have gone too far.",
+        "The moment the peg's force hits 4 N you have overdone it.",
+        "You've gone too far if you hit 4 N.",
+        "Going beyond 4 N on the peg is going too far.",
+        "At 4 N you are squeezing too hard.",
+    ],
+)
+def test_a_force_that_is_too_far_bounds_the_grip(text):
+    assert forces(text) == [("most", 4.0)]

@@ -108,3 +108,20 @@ def test_both_manners_at_once_are_refused_by_name(text):
 )
 def test_a_slip_of_the_keyboard_changes_nothing(wrong, right):
     assert middle_n(wrong) == middle_n(right)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "You needn't be gentle, the usual will do.",
+        "It isn't delicate; the normal grip will do.",
+        "Be delicate with it; actually, forget delicate, just do it the usual way.",
+        "Grip it hard. Whoops.",
+        "Use moderate force.",
+        "I bought six strawberries at the market; pick one up.",
+    ],
+)
+def test_what_asks_for_the_usual_leans_neither_way(text):
+    contract = read_contract(text, TASK, {})
+    assert contract.terms == TASK.force
+    assert contract.lean == read_contract("Pick the strawberry.", TASK, {}).lean
