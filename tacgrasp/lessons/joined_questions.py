@@ -100,7 +100,8 @@ _AT_LENGTH = re.compile(
 
 _LISTED = re.compile(
     r",? (?:(?:please|both|all|all three|each)(?: (?:figures|numbers|values|of (?:them|"
-    r"these)))?|nothing else|go|side by side|(?:and )?keep it (?:short|brief)|be brief|"
+    r"these)))?|nothing else|go|side by side|in one go|at once|(?:and )?keep it (?:short|"
+    r"brief)|be brief|"
     r"briefly|in that order|"
     r"of what (?:you|we) feel|for (?:my|our|the) \w+)(?=[.?!,]*$)",
     re.I,
@@ -112,7 +113,11 @@ _BOTH_ENDS = re.compile(
     r")?(?:band|window|range)|"
     r"(?:the |our )?(?:\w+ )?(?:band|window|range)(?:,|:| -)? (?:its )?(?:low|lower|bottom|"
     r"lower end)(?: end)? and "
-    r"(?:its )?(?:high|upper|top|upper end)(?: end)?)\b",
+    r"(?:its )?(?:high|upper|top|upper end)(?: end)?|"
+    r"from (?:what|which|how many|how much)(?: \w+)? to (?:what|which|how many|how much)(?: "
+    r"\w+)? (?:does|do|is) "
+    r"(?:the |our )?(?:\w+ )?(?:band|window|range)(?: (?:go|run|reach|extend))?|"
+    r"(?:the |our )?(?:\w+ )?(?:band|window|range)(?: we (?:were|are) aiming for)?, from and to)\b",
     re.I,
 )
 _HOW_MUCH = re.compile(
@@ -139,9 +144,9 @@ _INDIRECT = (
         r"presses|it is)\b",
         "force",
     ),
-    (r"\bwhere (?:it is|it sits|it lies|the contact is)\b", "position"),
+    (r"\bwhere (?:on the \w+ )?(?:it is|it sits|it lies|the contact is)\b", "position"),
     (r"\bhow (?:large|big) (?:the (?:area|contact|patch) is|it is)\b", "area"),
-    (r"\b(?:how|what) the surface (?:feels|is)(?: like)?\b", "texture"),
+    (r"\b(?:how|what) (?:the|its) surface (?:feels|is)(?: like)?\b", "texture"),
 )
 """Parts of 'tell me how deep it is and with what force', as the nouns that they ask for."""
 

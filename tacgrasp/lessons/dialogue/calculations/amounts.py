@@ -101,7 +101,7 @@ _MISSING = re.compile(
     r"touches|arrives at|measures?d?|was|were at) )?(?:reach(?:ing)? )?(?P<b>.+)"
 )
 _FURTHER = re.compile(
-    r"how (?:much|far)(?: (?:more|further|deeper|harder|force))* (?:(?:i|we|you|it) "
+    r"how (?:much|far)(?: (?:more|further|deeper|harder|force|of [a-z]+))* (?:(?:i|we|you|it) "
     r")?(?:would|must|does|do|can|"
     r"could|may|should|will|has|have|need) .+? to (?:reach|get to|arrive at|hit|be at|come "
     r"to|get up to) (?P<b>.+)"
@@ -144,6 +144,8 @@ _APARTS = tuple(
         rf"(?P<b>.+) {_IS} (?P<a>.+?)(?: (?:lie|be|sit|stand|lying))?",
         r"how (?:much|far)(?: (?:lies?|is there|are there|is|remains?|room is there))? "
         r"(?P<apart>between) (?P<a>.+) and (?P<b>.+)",
+        r"what (?:is|would) (?:the )?(?P<apart>distance|gap|difference)(?P<a>) (?:to|from) "
+        r"(?P<b>.+?)(?: be)?",
         r"(?:what is|how (?:large|big|wide|great) is) (?:the )?(?P<apart>difference|gap|distance|"
         r"spread)(?: there)? between (?P<a>.+) and (?P<b>.+)",
     )
@@ -182,11 +184,14 @@ _MASS_OF = re.compile(
 _POINT = re.compile(
     r"(?:what is |how (?:much|far) is )?(?:the )?(?:distance (?:between|from|of) )?(?:the "
     r")?(?:contact|it) "
-    r"(?:and|to|from|away from) (?:the )?(?:point )?(?:at )?x (?P<x>#.+?) (?:and )?y (?P<y>#.+)"
+    r"(?:and|to|from|away from) (?:the )?(?:(?:point|spot|place) )?(?:at )?x (?P<x>#.+?) "
+    r"(?:and )?y (?P<y>#.+)"
 )
 _ALONE = re.compile(
-    r"(?:(?:what|how (?:much|large|big|great)) (?:is|are|would be|makes?) )?(?P<a>.+?)"
-    r"(?: (?:what is (?:it|that|the .+)|(?:comes?|amounts?) to (?:what|how much)|(?:is|makes|"
+    r"(?:(?:what|how (?:much|large|big|great)|(?:what|which) (?:force|depth|mass|area)) "
+    r"(?:is|are|would be|makes?) )?(?P<a>.+?)"
+    r"(?: (?:(?:what|how much) is (?:it|that|the .+)|(?:comes?|amounts?) to (?:what|how "
+    r"much)|(?:is|makes|"
     r"equals) "
     r"(?:what|how much)|under earth gravity.*|given the (?:stated |told )?mass))*"
 )
@@ -243,7 +248,7 @@ def _pair(
     second = asked.term(b) if is_above is None else asked.bound(b, is_above=is_above)
     if second is None:
         return None
-    if a is None:
+    if not a:
         first = asked.subject or (usual(second.dimension) if usual_unit(second.dimension) else None)
     else:
         first = asked.term(a, beside=second)

@@ -27,14 +27,16 @@ _ITS = re.compile(r"\bits\b", re.I)
 _PRONOUN = re.compile(
     r"(?:(?:we|us|me|it|this|that|i|you|they|these|those|one|he|she|the (?:robot|gripper|"
     r"contact|object|"
-    r"thing|result|reading|value|touch|fingers?)|what you feel)(?: (?:now|pressing|gripping|"
+    r"thing|result|reading|value|touch|fingers?)|what you feel|what there is)(?: (?:now|"
+    r"pressing|gripping|"
     r"here))?)"
 )
 _GRAVITY = re.compile(
     r"^(?:with|using|at|for|taking) (?:a |the )?(?:g |gravity )?(?:of )?#\d+ m\b \S+ "
 )
 _LEADING = re.compile(
-    r"^(?:(?:please|kindly|tell me|give me|state|say|report|compute|calculate|work out|determine|"
+    r"^(?:(?:please|kindly|express|tell me|give me|state|say|report|compute|calculate|work "
+    r"out|determine|"
     r"now|well|ok|then|and|so|hmm+|um+|uh+|for (?:my|the|our|your) \w+|roughly|approximately|"
     r"exactly|(?:i |we )?(?:want|need|would "
     r"like) to know|"
@@ -69,12 +71,14 @@ _PER_UNIT = re.compile(
 )
 _EXTRA_ONE = re.compile(rf"\bone extra (?={UNIT}\b)|\banother (?=half (?:an? )?(?:{UNIT})\b)")
 _FULL_ONE = re.compile(rf"\b(?:one|an?) (?:full|whole|single) (?={UNIT}\b)")
+_PER_SLASH = re.compile(rf"\b({UNIT}) ?/ ?({UNIT})\b")
+_WERE_TO = re.compile(r"^(?:were|should|if) (i|we|you|it|the \w+) (?:were )?to ")
 _KEEPING_SIGNS = re.compile(r",? (?:keeping|with|counting) (?:the|their) signs?\b")
 _AT_ONCE = re.compile(r" (?:at the same time|simultaneously|together|at once)$")
 _GIVEN_MASS = re.compile(
     r"^(?:with|given|by|from|going by) the (?:mass|weight)(?: (?:that )?(?:i|we|you)(?: "
     r"\w+){1,3}?)? (?=what|how)|"
-    r" (?:going by|given|from|by) the (?:mass|weight) .*$"
+    r" (?:going by|given|from|by) the (?:mass|weight) (?:that )?(?:i|we|you|it)\b.*$"
 )
 _REMARK = re.compile(r" (?:i|we) need (?:it|this|that|them) .*$| whichever (?:is|one is) \w+$")
 _AMOUNT_OF = re.compile(
@@ -92,7 +96,8 @@ _SIGNED = re.compile(
 _UNSIGNED = re.compile(
     r"^(?:ignoring|without|regardless of|disregarding|leaving out|dropping) (?:the |its )?"
     r"(?:sign|direction) | (?:ignoring|without|regardless of|disregarding|no matter) (?:the |its )?"
-    r"(?:sign|direction|which)$| never mind which(?: way)?$| either way$| on either side$"
+    r"(?:sign|direction|which(?: is \w+)?|whether .+)$| (?:and )?without (?:a|the|any) sign$|"
+    r" never mind which(?: way)?$| either way$| on either side$"
 )
 
 
@@ -175,7 +180,8 @@ def asked_words(question: str) -> AskedWords:
     """A question in plain words, with what it says of unit and sign taken out."""
     question = _EXTRA_ONE.sub("another ", _ITS.sub("the", question.lower()))
     question = _FULL_ONE.sub("1 ", _ONE_MORE.sub(r"1 \1 more", question))
-    question = _KEEPING_SIGNS.sub("", question)
+    question = _PER_SLASH.sub(r"\1 per \2", _KEEPING_SIGNS.sub("", question))
+    question = _WERE_TO.sub(r"if \1 ", question)
     asked = asked_text(plainer(question))
     places = iter(range(1, len(asked.numbers) + 1))
     words = re.sub("#", lambda _: f"#{next(places, 0)}", asked.words)

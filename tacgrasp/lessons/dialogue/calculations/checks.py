@@ -30,7 +30,8 @@ _COMPARED = tuple(
     for sign, said in (
         (
             ">=",
-            r"reach(?:es|ed)?|comes? up to|at least|no less than|not less than|not below|not "
+            r"reach(?:es|ed)?|comes? up to|at least(?: as \w+ as)?|no less than|not less "
+            r"than|not below|not "
             r"under|no smaller than",
         ),
         ("<=", r"at most|no more than|not more than|not above|not over|no larger than"),
@@ -87,6 +88,10 @@ _BARE = re.compile(
     r"over|under)\b)|"
     r"(?=(?:more|less|greater|deeper|shallower|heavier|lighter|stronger) than )"
 )
+_NEITHER = re.compile(
+    r"(?:it (?:true|correct|right|the case|so) that )?(?:(?P<s>.+?) (?:is )?)?neither "
+    r"(?P<a>.+) nor (?P<b>.+)"
+)
 _RESERVE = re.compile(
     r"(?:we|you|i|there|it) (?:(?:still|have|got|is) )*(?:(?P<more>more|over)|(?P<less>less|"
     r"under)) "
@@ -106,6 +111,10 @@ def calculated_check(asked: AskedWords) -> Calculated | None:
         return None
     words = asked.in_its_unit(words)
     words = re.sub(r"^(it|we|they) both ", r"\1 ", words.strip())
+    if found := _NEITHER.fullmatch(words):
+        parts = [condition_of(asked, f"{found['s'] or ''} {found[n]}".strip()) for n in "ab"]
+        told = [f"not ({part})" for part in parts if part]
+        return Calculated(truth=" and ".join(told), unit=None) if len(told) == 2 else None
     condition = _condition(asked, words, joint=" or " if is_any else "")
     return None if condition is None else Calculated(truth=condition, unit=None)
 

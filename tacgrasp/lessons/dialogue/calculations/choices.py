@@ -13,6 +13,7 @@ import re
 
 from tacgrasp.lessons.dialogue.calculations.asked import AskedWords, usual
 from tacgrasp.lessons.dialogue.calculations.checks import shared_noun
+from tacgrasp.lessons.dialogue.calculations.quantity_names import is_band
 from tacgrasp.lessons.dialogue.calculations.terms import alike
 from tacgrasp.lessons.dialogue.meaning import Calculated
 
@@ -39,6 +40,18 @@ _WHICH_END = re.compile(
     r"(?:is|are|does|do) (?P<a>.+?)(?: (?:sit|lie))? (?:nearer|closer)(?: to)?"
     r"(?: (?:the )?(?P<b>\w+)(?: (?:one|end|edge))? or (?:the )?(?P<c>\w+)(?: (?:one|end|edge))?)?"
 )
+_OF_BOTH_ENDS = re.compile(
+    r"(?:which|what) (?:of the (?:#\d+|two) )?(?:(?:edge|end|side|bound)s? of (?:the |our "
+    r")?(?P<band>.+?)|(?P<of>\w+) (?:edge|end)s?) "
+    r"(?:is|are) (?:(?:nearer|closer)(?: to)? (?P<a>.+?)|(?P<also>.+?) (?:nearer|closer)(?: to)?) "
+    r"(?:the )?(?P<b>lower|upper|bottom|top)(?: one)? or (?:the )?(?P<c>lower|upper|bottom|"
+    r"top)(?: one)?"
+)
+_COVERED = re.compile(
+    r"is (?:more|most|the (?:larger|greater|bigger) part) of (?:the )?pad (?P<one>\w+) or "
+    r"(?P<two>\w+)"
+)
+_TOUCHED, _FREE = ("covered", "touched", "pressed"), ("free", "uncovered", "untouched", "empty")
 _SIDE = r"above|over|below|under|more|less|higher|lower|beneath|beyond"
 _ABOVE_WORDS = ("above", "over", "more", "higher", "beyond")
 _OVER_UNDER = re.compile(
@@ -76,14 +89,14 @@ _HALVES = re.compile(
 )
 _PLACED = re.compile(r"\b(?:half|side|part|where|contact|middle|center|pad|thing|gel)\b")
 _NOT_PLACED = re.compile(
-    r"\b(?:if|how|than|straight|band|range|window|force|limit|goal|target|depth|area|mass|edge|#\d+|should|move|go)\b"
+    r"\b(?:if|how|than|straight|band|range|window|force|limit|goal|target|depth|area|mass|edge|offset|matter|whether|#\d+|should|move|go)\b"
 )
 _ARTICLE = re.compile(r"^(?:the|our|to|to the) ")
 
 
 def calculated_choice(asked: AskedWords) -> Calculated | None:
     """What a question lets choose by terms; None where it lets choose nothing so."""
-    for reader in (_which, _which_end, _nearer, _over_or_under, _step, _back, _half):
+    for reader in (_which, _which_end, _nearer, _over_or_under, _step, _back, _half, _covered):
         if found := reader(asked):
             return found
     return None
@@ -125,10 +138,11 @@ def _nearer(asked: AskedWords) -> Calculated | None:
 
 
 def _which_end(asked: AskedWords) -> Calculated | None:
-    found = _WHICH_END.fullmatch(asked.words)
-    if found is None or not re.search(r"(?:band|range|window|goal|target)$", found["band"]):
+    found = _WHICH_END.fullmatch(asked.words) or _OF_BOTH_ENDS.fullmatch(asked.words)
+    if found is None or not is_band(found["band"] or found["of"]):
         return None
-    force = asked.term(found["a"], beside=usual("force"))
+    named = found["a"] or found.groupdict().get("also") or ""
+    force = asked.term(named, beside=usual("force"))
     if force is None or force.dimension != "force":
         return None
     low, high = found["b"] or "lower", found["c"] or "upper"
@@ -173,6 +187,19 @@ def _back(asked: AskedWords) -> Calculated | None:
     if _BACK.fullmatch(asked.words) is None:
         return None
     return Calculated(truth="'left' if x_mm > 0 else 'right'", unit=None)
+
+
+def _covered(asked: AskedWords) -> Calculated | None:
+    """Which part of the pad is the larger one, in the question's own words."""
+    found = _COVERED.fullmatch(asked.words)
+    if found is None:
+        return None
+    one, two = found["one"], found["two"]
+    if one in _FREE and two in _TOUCHED:
+        one, two = two, one
+    if one not in _TOUCHED or two not in _FREE:
+        return None
+    return Calculated(truth=f"'{one}' if area_percent > 50 else '{two}'", unit=None)
 
 
 def _half(asked: AskedWords) -> Calculated | None:

@@ -44,7 +44,8 @@ _NAMED: Mapping[str, tuple[str, str]] = {
         "force_n", "force",
     ),
     r"(?:force |permitted |allowed |permissible |hard |upper |safety |maximum |never exceed )*"
-    r"(?:limit|ceiling|cap)(?: force)?|(?:permitted|allowed|permissible) maximum(?: force)?|"
+    r"(?:limit|ceiling|cap)(?: force)?|(?:permitted|allowed|permissible) (?:maximum|max)(?: "
+    r"force)?|"
     r"maximum (?:permitted|allowed|permissible) force|maximum force (?:permitted|allowed)": (
         "limit_n", "force",
     ),

@@ -68,6 +68,10 @@ _CHANGES = tuple(
         ("-", rf"{_WHO} (?:took|take|removed?) (?P<b>.+?) (?:off|from) (?P<a>.+)"),
     )
 )
+_TO_TIMES = re.compile(
+    rf"(?P<a>.+?) (?:{_UP}|{_DOWN}) to (?P<n>#\d+) times (?:the )?(?:\w+ )?(?:size|value|"
+    rf"amount|depth|self)"
+)
 _PRESSED = re.compile(
     rf"(?:{_WHO}|it|the (?:fingers|gripper|robot|hand)) (?:push|press|squeez|gripp?|pinch|"
     rf"clamp|put on|add)(?:ed|e|es|s)?"
@@ -76,7 +80,8 @@ _PRESSED = re.compile(
     r"lighter|gentler|shallower))"
 )
 _EASED = re.compile(
-    rf"{_WHO} (?:let go of|released?|gave up|back(?:ed)? off|ease(?:d)?(?: off)?|took off|"
+    rf"(?:{_WHO} )?(?:(?:backing|easing) off|releasing|letting go of|let go of|released?|"
+    rf"gave up|back(?:ed)? off|ease(?:d)?(?: off)?|took off|"
     rf"took away|drop(?:ped)?)"
     r"(?: by)? (?P<b>.+)"
 )
@@ -113,6 +118,12 @@ _EXTRA = re.compile(
     rf"(?:{UNIT}))(?: more| extra)?|"
     rf"(?P<more>#\d+ (?:{UNIT})) (?:more|extra)) (?P<rest>.+)"
 )
+_WITHOUT = re.compile(
+    rf"(?:can|could|may|might) (?:i|we|you) (?:still )?(?:add|put on|press|squeeze)(?: "
+    rf"another)? (?P<b>#\d+ (?:{UNIT}))"
+    r"(?: more| harder| extra)? without (?:going over|exceeding|passing|breaking|"
+    r"crossing)(?: (?:it|(?:the )?limit))?"
+)
 _SUBJECT = re.compile(
     r"(?:what|how (?:much|deep|large|big|strong|high)) (?:would|will|is) (.+?) (?:be|become|"
     r"come to|amount to)\b"
@@ -122,7 +133,7 @@ _SUBJECT = re.compile(
 _RESULT = re.compile(
     r"(?:what|how (?:much|deep|heavy|large|big|strong|hard))(?: (?:force|depth|mass|weight|"
     r"area|limit))? "
-    r"(?:would|will|is|are|does|do)(?: (?:that|it|we|you|there|each(?: of them)?|the (?:new|"
+    r"(?:would|will|is|are|does|do)(?: (?:that|it|we|you|i|there|each(?: of them)?|the (?:new|"
     r"total|resulting|whole|combined) "
     r"\w+|the (?:force|depth|mass|weight|area|limit)|the|remain|be|left|have|result|become|"
     r"read|show|get|make|come|to|amount|still|then|apply|feel|carry|hold|take))*|"
@@ -150,6 +161,8 @@ def supposed(asked: AskedWords) -> Calculated | None:
 
 def _clauses(words: str) -> Iterator[tuple[str, str]]:
     """What a question supposes, and what it asks, in every way it may be divided so."""
+    if found := _WITHOUT.search(words):
+        yield f"we press {found['b']} harder", "would the limit be respected"
     if found := _EXTRA.fullmatch(words):
         yield f"we press {found['b'] or found['more']} harder", f"would it {found['rest']}"
     if found := _SUPPOSED.fullmatch(words):
@@ -196,6 +209,11 @@ def _changed(asked: AskedWords, change: str) -> Term | None:
         if whole is not None and count is not None:
             expression = f"{whole.factor} / {count.expression}"
             return replace(whole, expression=expression, words="")
+    if found := _TO_TIMES.fullmatch(change):
+        term, count = asked.term(found["a"]), asked.term(found["n"])
+        if term is not None and count is not None:
+            expression = f"{count.expression} * {term.factor}"
+            return replace(term, expression=expression, words=found["a"])
     for factor, said in _TIMES.items():
         found = re.fullmatch(
             rf"(?:{_WHO} (?:ordered|had|made) )?(?P<a>.+?) {_WAS}(?:{said})(?: {_LARGE})?", change

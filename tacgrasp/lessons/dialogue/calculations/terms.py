@@ -77,7 +77,7 @@ _MULTIPLES: Mapping[str, str] = {
     r"(?:a |one )?tenth": "0.1",
 }
 _ARTICLE = re.compile(
-    r"(?:(?:the|our|your|its|this|that|an?|my|current|currently|present|presently|actual|measured|"
+    r"(?:(?:the|our|your|its|this|that|an?|my|current|currently|present|presently|actual|measured|applied|exerted|"
     r"felt|momentary|real|whole|total|overall|existing|latest|exact|full|size of|value of|"
     r"amount of|level of|figure for|reading of|contact's|object's|of) )+(?=\S)"
 )
@@ -91,7 +91,7 @@ _TRAILING = re.compile(
 )
 _NUMBER = re.compile(
     rf"(?:(?:depth|force|area|mass|load|grip|weight) of )?(#\d+)(?: ({UNIT})(?: (?:of "
-    rf")?(?:force|deep|depth))?)?"
+    rf")?(?:force|deep|depth))?| force)?"
 )
 
 _OPERATIONS: Sequence[tuple[str, re.Pattern[str]]] = tuple(

@@ -93,8 +93,10 @@ def dimension_of(truth: Expression) -> str:
     if len(set(dimensions)) == 1 and dimensions[0]:
         return "ratio"
     first = next(filter(None, map(_dimension_of_name, truth.names)), "")
-    if has_gravity and first in ("force", "mass") and len(truth.names) == 1:
-        return "mass" if first == "force" else "force"
+    if has_gravity and first == "mass" and len(truth.names) == 1:
+        return "force"
+    if has_gravity and truth.names == ("force_n",) and "/" in truth.text:
+        return "mass"
     return "ratio" if first == "fraction" and truth.is_hundredth else first
 
 

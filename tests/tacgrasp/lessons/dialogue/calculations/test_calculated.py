@@ -43,6 +43,21 @@ NUMBERS = [
         "0.00980665 * mass_g / 2",
         "N",
     ),
+    ("If I eased off by 0.2 N, what would the force be?", "force_n - 0.2", "N"),
+    ("Suppose another 0.3 N came on top: what would it be?", "force_n + 0.3", "N"),
+    ("If the object slid 2 mm to the right, what would x be?", "x_mm + 2", "mm"),
+    ("What is the ratio of force to depth, in N/mm?", "force_n / depth_mm", "N/mm"),
+    ("Force divided by the weight of the object?", "force_n / (0.00980665 * mass_g)", ""),
+    ("If the gel were 4 mm thick, what percentage of it is pressed in?", "100 * depth_mm / 4", "%"),
+    (
+        "What is the least change of force that would bring us into the band?",
+        "max(0, band_low_n - force_n, force_n - band_high_n)",
+        "N",
+    ),
+    ("What is the force minus 2 N? Negative if it is less.", "force_n - 2", "N"),
+    ("How far is the depth from 1 mm, either way?", "abs(abs(depth_mm - 1))", "mm"),
+    ("What mass weighs as much as the force?", "force_n / 0.00980665", "g"),
+    ("What would two of them weigh?", "2 * mass_g", "g"),
 ]
 CHECKS = [
     ("Are we within 0.2 N of the limit?", "abs(force_n - limit_n) <= 0.2"),
@@ -69,8 +84,28 @@ CHECKS = [
         "band_low_n <= (force_n - 0.3) <= band_high_n",
     ),
     ("Is the area above 30 mm²?", "area_mm2 > 30"),
+    ("Has the depth failed to reach 0.4 mm?", "depth_mm < 0.4"),
+    ("Is the depth between 200 and 700 microns?", "min(0.2, 0.7) <= depth_mm <= max(0.2, 0.7)"),
+    ("Is the depth, in microns, more than 400?", "depth_mm > 0.4"),
+    ("Is the whole band below the limit?", "band_high_n < limit_n"),
+    (
+        "If I backed off 0.5 N, would we be in the band?",
+        "band_low_n <= (force_n - 0.5) <= band_high_n",
+    ),
+    ("If it slid 3 mm to the left, would it be left of the middle?", "x_mm - 3 < 0"),
+    ("Can I add another newton without exceeding the limit?", "force_n + 1 <= limit_n"),
+    (
+        "Is it true that neither the force exceeds 2 N nor the depth exceeds 1 mm?",
+        "not (force_n > 2) and not (depth_mm > 1)",
+    ),
+    (
+        "Is the force nearer to the lower end of the band than to the upper one?",
+        "abs(force_n - band_low_n) < abs(force_n - band_high_n)",
+    ),
 ]
 CHOICES = [
+    ("Is more of the pad covered or free?", "'covered' if area_percent > 50 else 'free'"),
+    ("Is it in the upper or the lower half of the pad?", "'upper' if y_mm > 0 else 'lower'"),
     ("Which is greater, the force or the limit?", "'force' if force_n > limit_n else 'limit'"),
     (
         "Is the force nearer to 1 N or to 2 N?",
