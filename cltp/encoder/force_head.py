@@ -23,7 +23,7 @@ from cltp.gel.pressure import NUM_FEATURES, pressure_features
 from cltp.tactile.states import NUMBERS, Side
 
 HIDDEN = 64
-"""Width of both hidden layers. Our choice: 7,300 weights."""
+"""Width of both hidden layers. Our choice: 7,500 weights."""
 
 STEPS, BATCH, RATE = 6000, 512, 2e-3
 """How long and how fast it is fitted."""
@@ -68,18 +68,22 @@ class ForceHead(nn.Module):
         self.out = nn.Linear(HIDDEN, 3)
 
     def forward(self, inputs: Tensor) -> ReadForce:
-        """Forces of ``force_inputs`` (B, 43)."""
+        """Forces of ``force_inputs`` (B, 48)."""
         scaled = ((inputs - self.mean) / self.spread).clamp(-FARTHEST, FARTHEST)
         change, below, above = self.out(self.layers(scaled)).unbind(-1)
         margins = F.softplus(torch.stack([below, above], dim=-1)) * self.widening
         return ReadForce(inputs[:, NUM_FEATURES + _FORCE] + change, margins)
 
-    def fit(self, inputs: Tensor, truth: Tensor, seed: int = 0) -> None:
+    def fit(
+        self, inputs: Tensor, truth: Tensor, weights: Tensor | None = None, seed: int = 0
+    ) -> None:
         """Learn from contacts that touch.
 
         Args:
-            inputs: Their ``force_inputs``, shape (N, 43).
+            inputs: Their ``force_inputs``, shape (N, 48).
             truth: Their transformed forces, shape (N,).
+            weights: How much each counts for the intervals, shape (N,), 1 in the mean; None for
+                all alike.
             seed: Random seed of the order.
         """
         self.mean.copy_(inputs.mean(0))
@@ -90,12 +94,14 @@ class ForceHead(nn.Module):
             self.out.bias.copy_(torch.tensor([0.0, -2.0, -2.0]))
         optimiser = torch.optim.AdamW(self.parameters(), lr=RATE, weight_decay=0.02)
         schedule = torch.optim.lr_scheduler.OneCycleLR(optimiser, RATE, total_steps=STEPS)
+        weights = torch.ones_like(truth) if weights is None else weights
         order = torch.Generator().manual_seed(seed)
         for _ in range(STEPS):
             rows = torch.randint(len(truth), (BATCH,), generator=order)
             force = self(inputs[rows])
             errors = truth[rows] - force.value
-            loss = errors.abs().mean() + pinball(errors.detach(), force.margins).mean()
+            ends = pinball(errors.detach(), force.margins)
+            loss = errors.abs().mean() + (weights[rows] * ends).mean()
             optimiser.zero_grad()
             loss.backward()
             optimiser.step()
@@ -112,7 +118,7 @@ class ForceHead(nn.Module):
 
 @torch.no_grad()
 def force_inputs(points: Tensor, read: HeadsOutput) -> Tensor:
-    """What a ``ForceHead`` takes: shape (B, 43).
+    """What a ``ForceHead`` takes: shape (B, 48).
 
     Args:
         points: Scaled grids of points, shape (B, N, 3).

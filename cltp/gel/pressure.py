@@ -3,7 +3,8 @@
 Under a contact the heights are known and all pressure lies there. A linear system gives the
 pressure, whose sum is the force. Where a contact ends is not known in noise, and the zero of the
 heights is not either, so that the force is computed for several outlines, with and without the
-height of the surroundings taken away. A network weighs them (``cltp.encoder.force_head``).
+height of the surroundings taken away. How thick the gel is shows in its surface around a
+contact. A network weighs all of it (``cltp.encoder.force_head``).
 
 Not here: the simulation of a contact, where outline and pressure follow from the body
 (``sim.gel.contact_solver``).
@@ -53,6 +54,13 @@ SMOOTHING = 0.7
 RIM = 2
 """Elements around a contact that do not count as its surroundings."""
 
+RINGS = (1, 2, 4, 7, 12)
+"""Outer ends of the rings around a contact [elements along rows and columns]. Our choice: the last
+one ends 7 mm away, twice the gel's thickness, beyond which its surface hardly moves."""
+
+OF_RINGS = 0.2
+"""The outline that they lie around, one of ``LEVELS``."""
+
 LEAST_SURROUNDINGS = 20
 """Fewest elements whose median is the height of the surroundings."""
 
@@ -61,7 +69,7 @@ LEAST_FORCE_N = 1e-3
 
 _NEIGHBOURS = ndimage.generate_binary_structure(2, 1)
 
-_OF_CONTACT = 7
+_OF_CONTACT = 7 + len(RINGS)
 _OF_LEVEL = 4
 NUM_FEATURES = _OF_CONTACT + _OF_LEVEL * len(LEVELS)
 
@@ -69,9 +77,10 @@ NUM_FEATURES = _OF_CONTACT + _OF_LEVEL * len(LEVELS)
 def pressure_features(points: NDArray[np.float32]) -> NDArray[np.float32]:
     """What pressure tells of a cloud: shape (``NUM_FEATURES``,).
 
-    Seven numbers of the whole: depth [mm], height of the surroundings and its spread over the
-    depth, fraction of the pad that they are, logarithm of an element's edge over ``BLOCK`` cells of
-    0.2 mm, sides of the pad [cm]. For each of ``LEVELS`` logarithms of the force [N], of the
+    Of the whole: depth [mm], height of the surroundings and its spread over the depth, fraction of
+    the pad that they are, logarithm of an element's edge over ``BLOCK`` cells of 0.2 mm, sides of
+    the pad [cm]. For each of ``RINGS`` the mean height above the surroundings over the depth; a
+    ring beyond the pad has 0. For each of ``LEVELS`` logarithms of the force [N], of the
     force that 1 mm of height has over the outline [N/mm], of the outline's area [mm²], and of
     the force with the surroundings as zero [N]. The newtons are those of ``NOMINAL_GEL``.
 
@@ -89,6 +98,8 @@ def pressure_features(points: NDArray[np.float32]) -> NDArray[np.float32]:
     features = [depth, zero / depth, spread / depth, free, np.log(pitch_mm / (0.2 * BLOCK))]
     features += [rows * pitch_mm / GRID_UNIT_MM, columns * pitch_mm / GRID_UNIT_MM]
     chosen, counts = _outlines(smooth, depth)
+    inner = chosen[: counts[LEVELS.index(OF_RINGS)]]
+    features += [(mean - zero) / depth for mean in _ring_means(heights, inner, zero)]
     forces, stiffness = _forces(heights, chosen, counts, pitch_mm)
     for force, stiff, count in zip(forces, stiffness, counts, strict=True):
         area = count * pitch_mm**2
@@ -121,6 +132,21 @@ def _surroundings(
     zero = float(np.median(outside))
     spread = 1.4826 * float(np.median(np.abs(outside - zero)))
     return zero, spread, len(outside) / heights.size
+
+
+def _ring_means(
+    heights: NDArray[np.float64], inner: NDArray[np.intp], beyond: float
+) -> list[float]:
+    """Mean height in each of ``RINGS`` around elements; ``beyond`` where a ring is empty."""
+    outside = np.ones(heights.size, dtype=np.bool_)
+    outside[inner] = False
+    distance = ndimage.distance_transform_cdt(outside.reshape(heights.shape), "taxicab")
+    number = np.searchsorted(RINGS, distance) + 1
+    number[distance == 0] = 0
+    counts = np.bincount(number.ravel(), minlength=len(RINGS) + 2)[1:-1]
+    sums = np.bincount(number.ravel(), heights.ravel(), minlength=len(RINGS) + 2)[1:-1]
+    means: list[float] = np.where(counts > 0, sums / np.maximum(counts, 1), beyond).tolist()
+    return means
 
 
 def _outlines(smooth: NDArray[np.float64], depth: float) -> tuple[NDArray[np.intp], list[int]]:

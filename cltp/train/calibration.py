@@ -18,6 +18,7 @@ from cltp.encoder.force_head import ForceHead, force_inputs
 from cltp.encoder.heads import StateHeads, Targets, targets
 from cltp.tactile.measure import contact_state
 from cltp.tactile.point_layout import GRID
+from cltp.tactile.sensors import sensor_named
 from cltp.tactile.states import NUMBERS
 from cltp.train.stage import TrainingRun
 
@@ -31,7 +32,7 @@ FORCE_CONTACTS = 24_000
 """Most contacts that a force head is fitted by: 1 ms each for the pressure, 10 ms in all."""
 
 LEAST_FORCE_CONTACTS = 2000
-"""Fewest: with fewer, forces stay as the heads read them. Our choice: 7,300 weights."""
+"""Fewest: with fewer, forces stay as the heads read them. Our choice: 7,500 weights."""
 
 BATCH = 64
 
@@ -78,9 +79,10 @@ def fit_force(
 ) -> None:
     """Give heads with intervals a force head, after ``calibrate_heads``.
 
-    It is fitted by contacts of the training split, whose forces heads read no better than others,
-    and its intervals are set on the validation split. An encoder that takes other points than the
-    grid, or a data set of fewer than ``LEAST_FORCE_CONTACTS``, gets none.
+    It is fitted by contacts of the training split, whose forces heads read no better than others.
+    Its intervals are learned as if units' gels were of any thickness (``even_weights``), and set on
+    the validation split. An encoder that takes other points than the grid, or a data set of fewer
+    than ``LEAST_FORCE_CONTACTS``, gets none.
 
     Args:
         run: Data, seed and progress.
@@ -105,10 +107,12 @@ def fit_force(
     sampler = Sampler(data, augmentation, seed=run.seed + 2, layout=GRID)
     if start is None:
         rows = learned[:FORCE_CONTACTS]
-        head.fit(*_force_samples(run, encoder, heads, sampler, rows), seed=run.seed)
+        inputs, forces, rows = _force_samples(run, encoder, heads, sampler, rows)
+        head.fit(inputs, forces, even_weights(_thicknesses(data, rows)), seed=run.seed)
     if len(held_out):
         rows = np.tile(held_out[:CALIBRATION_CONTACTS], CALIBRATION_VIEWS)
-        head.widen(*_force_samples(run, encoder, heads, sampler, rows))
+        inputs, forces, _ = _force_samples(run, encoder, heads, sampler, rows)
+        head.widen(inputs, forces)
     heads.force = head
 
 
@@ -118,9 +122,9 @@ def _force_samples(
     heads: StateHeads,
     sampler: Sampler,
     rows: NDArray[np.int64],
-) -> tuple[Tensor, Tensor]:
-    """Inputs (N, 43) of the force head and transformed forces (N,) of contacts that touch."""
-    inputs, forces = [], []
+) -> tuple[Tensor, Tensor, NDArray[np.int64]]:
+    """Inputs (N, 48) of the force head, transformed forces and rows (N,) of contacts that touch."""
+    inputs, forces, touching = [], [], []
     for step, first in enumerate(range(0, len(rows), BATCH)):
         batch = sampler.batch(rows[first : first + BATCH], step)
         labels = targets(batch.states)
@@ -129,5 +133,34 @@ def _force_samples(
         with torch.no_grad():
             inputs.append(force_inputs(points, heads(encoder(points).pooled)))
         forces.append(labels.numbers[touched, _FORCE])
+        touching.append(batch.index[touched.numpy()])
         run.report("force", min(len(rows), first + BATCH), len(rows), {})
-    return torch.cat(inputs), torch.cat(forces)
+    return torch.cat(inputs), torch.cat(forces), np.concatenate(touching)
+
+
+def _thicknesses(data: ContactDataset, rows: NDArray[np.int64]) -> NDArray[np.float64]:
+    """Thickness of the gels of contacts (N,) over that of the sensor's nominal gel.
+
+    An unknown gel counts as nominal.
+    """
+    sensors = (sensor_named(name) for name in data.column("sensor")[rows])
+    nominal = np.array([sensor.gel_mm for sensor in sensors])
+    ratios = data.column("gel_thickness_mm")[rows] / nominal
+    return np.where(np.isnan(ratios), 1.0, ratios)
+
+
+def even_weights(thicknesses: NDArray[np.float64]) -> Tensor:
+    """Weights (N,), 1 in the mean, under which logarithms of thicknesses (N,) are spread evenly.
+
+    Light contacts do not show the gel's thickness. Most units have gels near the nominal one, so
+    that nine tenths of all contacts can lie in their intervals and few of those on a thin gel. A
+    thickness therefore counts as much as the part of the range that lies nearest to it.
+    """
+    values, which, counts = np.unique(thicknesses.round(3), return_inverse=True, return_counts=True)
+    if len(values) == 1:
+        return torch.ones(len(thicknesses))
+    logs = np.log(values)
+    middles = (logs[1:] + logs[:-1]) / 2
+    ends = np.concatenate([[2 * logs[0] - middles[0]], middles, [2 * logs[-1] - middles[-1]]])
+    weights = (np.diff(ends) / counts)[which]
+    return torch.from_numpy(weights / weights.mean()).float()

@@ -56,6 +56,23 @@ def test_it_learns_and_nine_tenths_of_the_truth_lie_inside(monkeypatch):
     assert 0.87 < inside.float().mean() < 0.93
 
 
+def test_contacts_that_count_more_widen_the_intervals_to_them(monkeypatch):
+    monkeypatch.setattr(force_head, "STEPS", 500)
+    inputs, truth = samples(4000, 1)
+    rare = torch.arange(4000) % 50 == 0  # one in fifty, which nothing in the inputs tells
+    truth = torch.where(rare, truth - 0.5, truth)
+    margins = []
+    for weights in (None, torch.where(rare, 15.0, 0.7)):
+        torch.manual_seed(0)
+        head = ForceHead()
+        head.fit(inputs, truth, weights)
+        with torch.no_grad():
+            margins.append(head(inputs).margins.median(0).values)
+    alike, weighted = margins
+    assert weighted[0] > 0.3 > 0.2 > alike[0]
+    assert abs(weighted[1] - alike[1]) < 0.05
+
+
 def test_it_changes_the_force_alone(caps):
     torch.manual_seed(0)
     encoder = TactileEncoder(PRESETS["tiny_grid"]).eval()

@@ -1,11 +1,13 @@
 """Forces out of heights: presses that the simulator solved, and what must not change a force."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import torch
 
-from cltp.gel.compliance import layer_kernel
-from cltp.gel.pressure import LEVELS, NOMINAL_GEL, NUM_FEATURES, pressure_features
+from cltp.gel.compliance import GelMaterial, layer_kernel
+from cltp.gel.pressure import LEVELS, NOMINAL_GEL, NUM_FEATURES, RINGS, pressure_features
 from cltp.tactile.cells import height_grid
 from cltp.tactile.cloud import cloud_from_heights
 from cltp.tactile.encoder_input import encoder_input, grid_points
@@ -21,7 +23,9 @@ Y, X = np.meshgrid(
     (np.arange(COLUMNS) - (COLUMNS - 1) / 2) * PITCH_MM,
     indexing="ij",
 )
-FIRST = 7
+RING = 7
+"""Features before those of the rings."""
+FIRST = RING + len(RINGS)
 """Features before those of the outlines."""
 
 
@@ -35,8 +39,8 @@ def points_of(height_mm):
     return encoder_input(cloud_from_heights(height_mm, MINI), GRID)
 
 
-def pressed(gap_mm, force_n):
-    layer = ElasticLayer(gel_of(MINI.name), rows=ROWS, columns=COLUMNS, pitch_mm=PITCH_MM)
+def pressed(gap_mm, force_n, gel=None):
+    layer = ElasticLayer(gel or gel_of(MINI.name), rows=ROWS, columns=COLUMNS, pitch_mm=PITCH_MM)
     return layer.press_to_force(torch.tensor(gap_mm[None], dtype=torch.float32), force_n)
 
 
@@ -52,6 +56,23 @@ def test_the_force_of_a_ball_is_found_from_its_heights(radius_mm, force_n):
     found, _ = forces(points_of(press.height_mm[0].numpy()))
     assert found[0] == pytest.approx(force_n, rel=0.06)
     assert found[1] == pytest.approx(force_n, rel=0.06)
+
+
+def test_the_surface_around_a_contact_tells_a_thick_gel_from_a_thin_one():
+    rings = []
+    for thickness_mm in (2.3, 3.4, 6.2):
+        gel = GelMaterial(thickness_mm=thickness_mm, young_mpa=0.423, poisson=0.47)
+        press = pressed(ball(5.0), 2.0, gel)
+        features = pressure_features(points_of(press.height_mm[0].numpy()))
+        rings.append(features[RING : RING + len(RINGS)])
+    assert (np.diff(rings, axis=0)[:, 2] > 0.02).all()  # a thick gel sinks farther around it
+
+
+def test_rings_beyond_the_pad_tell_nothing():
+    pad = replace(MINI, columns=126, rows=126)
+    flat = np.full((63, 63), 0.3, np.float32)  # a contact that takes the whole pad
+    features = pressure_features(encoder_input(cloud_from_heights(flat, pad), GRID))
+    assert (features[RING : RING + len(RINGS)] == 0).all()
 
 
 @pytest.mark.parametrize("side", [1.5, 3.0])

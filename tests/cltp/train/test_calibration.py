@@ -1,5 +1,6 @@
 """What is set after a training: which encoders and data sets get a force head."""
 
+import numpy as np
 import pytest
 import torch
 
@@ -10,7 +11,7 @@ from cltp.encoder.encoder import PRESETS, TactileEncoder
 from cltp.encoder.force_head import ForceHead
 from cltp.encoder.heads import StateHeads
 from cltp.train import calibration
-from cltp.train.calibration import fit_force
+from cltp.train.calibration import even_weights, fit_force
 from cltp.train.stage import TrainingRun
 from tacgrasp.__main__ import main
 from tests.fakes.fake_contacts import write_contacts
@@ -78,6 +79,24 @@ def test_the_same_seed_fits_the_same_force_head(run, brief):
         states.append(heads.state_dict())
     for name, value in states[0].items():
         torch.testing.assert_close(states[1][name], value, rtol=0, atol=0)
+
+
+def test_a_thickness_counts_as_the_part_of_the_range_that_is_nearest_to_it():
+    thicknesses = np.repeat([2.0, 3.0, 4.5, 9.0], [10, 70, 15, 5])
+    weights = even_weights(thicknesses).numpy()
+    assert weights.mean() == pytest.approx(1)
+    total = np.array([weights[thicknesses == each].sum() for each in np.unique(thicknesses)])
+    cells = np.log([1.5, 1.5, 3**0.5, 2.0])
+    np.testing.assert_allclose(total / total.sum(), cells / cells.sum(), rtol=1e-5)
+    assert (even_weights(np.full(7, 3.4)) == 1).all()
+
+
+def test_intervals_are_learned_with_the_weights_of_the_gels(run, brief, monkeypatch):
+    seen = []
+    monkeypatch.setattr(calibration, "even_weights", lambda t: seen.append(t) or even_weights(t))
+    fit_force(run, *random_model("tiny_grid"), CLEAN)
+    assert len(seen) == 1
+    assert (seen[0] == 1.0).all()  # these contacts have no gel, which counts as the nominal one
 
 
 def test_weights_of_other_points_are_refused_by_name(run, tmp_path, capsys):
