@@ -115,8 +115,11 @@ def load_weights(folder: Path, module: nn.Module) -> None:
         state = {name: value.float() for name, value in load_file(path).items()}
         module.load_state_dict(state, strict=True)
     except (OSError, SafetensorError, RuntimeError, ValueError, KeyError) as error:
-        reason = (str(error) or repr(error)).splitlines()[0]
-        raise WeightsError(f"{path} is damaged or does not match its config: {reason}") from error
+        reason = (str(error) or repr(error)).splitlines()[-1].strip()
+        raise WeightsError(
+            f"{path} is damaged, or of another version, and does not match its config: {reason} "
+            "Train it anew with this version: tacgrasp train llm, or train cltp for an encoder alone"
+        ) from error
     require_finite(path, module.state_dict())
 
 
