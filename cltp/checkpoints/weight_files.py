@@ -118,7 +118,7 @@ def load_weights(folder: Path, module: nn.Module) -> None:
         reason = (str(error) or repr(error)).splitlines()[-1].strip()
         raise WeightsError(
             f"{path} is damaged, or of another version, and does not match its config: {reason} "
-            "Train it anew with this version: tacgrasp train llm, or train cltp for an encoder alone"
+            "Train it anew: tacgrasp train llm, or tacgrasp train cltp for an encoder alone"
         ) from error
     require_finite(path, module.state_dict())
 

@@ -99,10 +99,17 @@ class ProfileTable:
         """Slope towards the centre, mm per mm: linear in depth (clamped to the table) and in r."""
         slopes = -np.gradient(self.height_mm, self.r_mm, axis=1)
         slopes[:, 0] = 0
+        return self._interpolated(slopes, r_mm, depth_mm)
+
+    def height(self, r_mm: FloatArray, depth_mm: float) -> FloatArray:
+        """Indentation [mm]: linear in depth (clamped to the table) and in r."""
+        return self._interpolated(self.height_mm, r_mm, depth_mm)
+
+    def _interpolated(self, table: FloatArray, r_mm: FloatArray, depth_mm: float) -> FloatArray:
         index = np.interp(depth_mm, self.depths_mm, np.arange(len(self.depths_mm)))
         low = min(int(index), len(self.depths_mm) - 2)
-        slope = slopes[low] + (index - low) * (slopes[low + 1] - slopes[low])
-        return np.interp(r_mm, self.r_mm, slope, right=0.0)
+        values = table[low] + (index - low) * (table[low + 1] - table[low])
+        return np.interp(r_mm, self.r_mm, values, right=0.0)
 
 
 PressShape = SphericalCap | ProfileTable
@@ -118,6 +125,14 @@ def slopes_of(
     r = np.hypot(x, down)
     inward = shape.inward_slope(r, press.depth_mm) / np.maximum(r, 1e-9)
     return np.stack([-inward * x, -inward * down], axis=-1)
+
+
+def heights_of(
+    press: BallPress, profiles: ProfileTable, column: FloatArray, row: FloatArray, mm_per_px: float
+) -> FloatArray:
+    """Indentation of a press in some pixels, (N,) [mm]."""
+    r = np.hypot(column - press.column, row - press.row) * mm_per_px
+    return profiles.height(r, press.depth_mm)
 
 
 def find_press(

@@ -1,11 +1,11 @@
 """Calibrate a sensor on presses of a ball of known diameter: from frames to ``GradientNet``.
 
-The network first learns the slopes of the bare sphere, where the gel follows it. If profiles of the
-gel are given, position and depth of every press are then fitted to the network's slopes, and it
-learns all of the gel; both are done twice, the second time by ``cltp.train.photometric.consensus``.
-From the sphere alone, the surroundings of a contact would not be learned, and heights would drift
-(``tacgrasp bench balls``, with ``--bare-sphere`` and without). Deterministic for a seed on one
-machine.
+If profiles of the gel are given, position and depth of every press are fitted to its colours
+(``cltp.train.photometric.places``), and ``cltp.train.photometric.consensus`` learns the slopes of
+all of the gel. Without profiles it learns those of the bare sphere, where the gel follows it, at
+the place where its circle was found: the surroundings of a contact are then not learned, and
+heights drift (``tacgrasp bench balls``, with ``--bare-sphere`` and without). Deterministic for a
+seed on one machine.
 
 Not here: the file (``cltp.sensing.calibration``), how many presses are enough (``tacgrasp bench
 ball-curve``).
@@ -20,7 +20,7 @@ from dataclasses import dataclass
 import numpy as np
 import torch
 from numpy.typing import NDArray
-from torch import Tensor
+from scipy import ndimage
 
 from cltp.errors import TouchError
 from cltp.sensing.ball_presses import (
@@ -29,20 +29,20 @@ from cltp.sensing.ball_presses import (
     ProfileTable,
     SphericalCap,
     find_press,
-    fit_press,
     slopes_of,
 )
 from cltp.sensing.frames import Frame, check_frame
-from cltp.sensing.photometric import GradientNet, Photometer, colour_change, position_inputs
+from cltp.sensing.photometric import GradientNet, colour_change, position_inputs
 from cltp.tactile.sensors import SensorSpec
-from cltp.train.photometric.consensus import consensus_steps, train_consensus
-from cltp.train.photometric.network import Net, train_net
+from cltp.train.photometric.consensus import Gel, Pixels, consensus_steps, train_consensus
+from cltp.train.photometric.places import TURNS, fit_places, light_of
 
 MIN_PRESSES = 5
 """Fewer presses can't cover the sensing area; our choice."""
 
 _NEAR_MM = 3.5  # distance from a press that holds ball, bulge and a rim
 _NEAR_SAMPLES, _FAR_SAMPLES = 3000, 1500  # pixels of a frame; the far ones keep the gel flat
+_SMOOTH_PX = 1.0  # of the colours that are learned from: noise in them makes slopes too flat
 
 StepReport = Callable[[int, int], None]
 """Receives the step and the number of steps."""
@@ -73,7 +73,7 @@ def train_gradients(
     *,
     profiles: ProfileTable | None = None,
     seed: int = 0,
-    steps: tuple[int, int, int] = (600, 300, 1000),
+    steps: int = 1000,
     report: StepReport = lambda step, steps: None,
 ) -> TrainedPhotometric:
     """Train the network on presses of a ball.
@@ -85,8 +85,7 @@ def train_gradients(
         diameter_mm: Diameter of the ball [mm].
         profiles: Profiles of this gel around this ball; None learns from the bare sphere alone.
         seed: Seed of weights and samples.
-        steps: Training steps on the sphere, on the gel before the second fit, and of each network
-            after it.
+        steps: Training steps of each network.
         report: Receives the progress.
 
     Raises:
@@ -98,10 +97,8 @@ def train_gradients(
     background = check_frame(background, sensor, "the background")
     used, presses, rejected = _find_all(frames, background, sensor, diameter_mm)
     changes = [colour_change(frames[i], background) for i in used]
-    torch_rng = torch.Generator().manual_seed(seed)
-    model, rng = Net(torch_rng), np.random.default_rng(seed)
-    first = steps[:1] if profiles is None else steps[:2]
-    total, done = sum(first) + consensus_steps(steps[2]), 0
+    torch_rng, rng = torch.Generator().manual_seed(seed), np.random.default_rng(seed)
+    total, done = consensus_steps(steps) + (0 if profiles is None else TURNS), 0
 
     def step_is_done() -> None:
         nonlocal done
@@ -109,23 +106,19 @@ def train_gradients(
         report(done, total)
 
     shape: PressShape = SphericalCap(diameter_mm=diameter_mm)
-    for count in first:
-        inputs, targets = _samples(changes, presses, shape, sensor, rng)
-        train_net(model, inputs, targets, count, torch_rng, step_is_done)
-        if profiles is not None:
-            shape = profiles
-            photometer = Photometer(model.numpy(), background, sensor)
-            slopes = [photometer.gradients(frames[i]) for i in used]
-            mm_per_px, deepest_mm = sensor.mm_per_px, float(profiles.depths_mm[-1])
-            presses = [
-                fit_press(press, *gradients, profiles, mm_per_px=mm_per_px, max_depth_mm=deepest_mm)
-                for press, gradients in zip(presses, slopes, strict=True)
-            ]
-    inputs, targets = _samples(changes, presses, shape, sensor, rng)
-    model = train_consensus(inputs, targets, steps[2], torch_rng, step_is_done)
-    inputs, targets = _samples(changes, presses, shape, sensor, rng, far=0)
+    if profiles is not None:
+        shape = profiles
+        presses = fit_places(changes, presses, profiles, background, sensor, step_is_done)
+    gel = Gel(
+        places=torch.from_numpy(position_inputs(sensor)),
+        brightness=torch.from_numpy(light_of(background).mean(axis=1).astype(np.float32)),
+    )
+    pixels = _pixels(changes, presses, shape, sensor, rng)
+    model = train_consensus(pixels, gel, steps, torch_rng, step_is_done)
+    near = _pixels(changes, presses, shape, sensor, rng, far=0)
     with torch.no_grad():
-        residual = math.sqrt(float((model(inputs) - targets).square().mean()))
+        slopes = model(torch.cat([near.colours, gel.places[near.index]], dim=1))
+        residual = math.sqrt(float((slopes - near.slopes).square().mean()))
     return TrainedPhotometric(
         net=model.numpy(), presses=tuple(presses), rejected=rejected, residual=residual
     )
@@ -151,18 +144,17 @@ def _find_all(
     return used, presses, rejected
 
 
-def _samples(
+def _pixels(
     changes: Sequence[NDArray[np.float32]],
     presses: Sequence[BallPress],
     shape: PressShape,
     sensor: SensorSpec,
     rng: np.random.Generator,
     far: int = _FAR_SAMPLES,
-) -> tuple[Tensor, Tensor]:
-    """Pixels of all frames whose slope is known: inputs (N, 5), slopes (N, 2)."""
-    positions = position_inputs(sensor)
+) -> Pixels:
+    """Pixels of all frames whose slope is known."""
     row, column = (a.ravel().astype(float) for a in np.mgrid[0 : sensor.rows, 0 : sensor.columns])
-    inputs, targets = [], []
+    parts = []
     for change, press in zip(changes, presses, strict=True):
         slopes = slopes_of(press, shape, column, row, sensor.mm_per_px)
         has_slope = np.isfinite(slopes).all(axis=1)
@@ -173,6 +165,19 @@ def _samples(
                 rng.permutation(np.flatnonzero(has_slope & (r >= _NEAR_MM)))[:far],
             ]
         )
-        inputs.append(np.concatenate([change[chosen], positions[chosen]], axis=1))
-        targets.append(slopes[chosen].astype(np.float32))
-    return torch.from_numpy(np.concatenate(inputs)), torch.from_numpy(np.concatenate(targets))
+        picture = change.reshape(sensor.rows, sensor.columns, 3)
+        smooth = ndimage.gaussian_filter(picture, (_SMOOTH_PX, _SMOOTH_PX, 0)).reshape(-1, 3)
+        parts.append(
+            Pixels(
+                colours=torch.from_numpy(change[chosen]),
+                smooth=torch.from_numpy(smooth[chosen]),
+                slopes=torch.from_numpy(slopes[chosen].astype(np.float32)),
+                index=torch.from_numpy(chosen),
+            )
+        )
+    return Pixels(
+        colours=torch.cat([part.colours for part in parts]),
+        smooth=torch.cat([part.smooth for part in parts]),
+        slopes=torch.cat([part.slopes for part in parts]),
+        index=torch.cat([part.index for part in parts]),
+    )

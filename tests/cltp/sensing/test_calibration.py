@@ -114,6 +114,7 @@ def test_a_profile_table_interpolates_between_depths_and_is_flat_beyond():
     )
     np.testing.assert_allclose(table.inward_slope(np.array([2.0, 3.0, 9.0]), 0.5), [0.5, 0.5, 0])
     np.testing.assert_allclose(table.inward_slope(np.array([2.0]), 7.0), [1.0])
+    np.testing.assert_allclose(table.height(np.array([1.5, 3.0, 9.0]), 0.5), [1.25, 0.5, 0])
 
 
 @pytest.mark.parametrize(
@@ -148,7 +149,7 @@ def test_nothing_and_what_is_not_round_are_no_ball():
 def test_presses_calibrate_and_a_new_press_is_measured():
     trained = train_gradients(
         [photographed(press) for press in presses()],
-        BACKGROUND, SENSOR, 6.0, profiles=SKIRTS, steps=(100, 100, 200),
+        BACKGROUND, SENSOR, 6.0, profiles=SKIRTS, steps=200,
     )  # fmt: skip
     new = BallPress(column=170, row=110, depth_mm=0.7)
     height = Photometer(trained.net, BACKGROUND, SENSOR).heights(photographed(new))
@@ -164,7 +165,7 @@ def test_the_same_seed_calibrates_alike_and_another_does_not():
 
     def net(seed):
         return train_gradients(
-            frames, BACKGROUND, SENSOR, 6.0, seed=seed, steps=(3, 0, 3)
+            frames, BACKGROUND, SENSOR, 6.0, seed=seed, steps=3
         ).net.w2  # fmt: skip
 
     np.testing.assert_array_equal(net(0), net(0))
@@ -173,7 +174,7 @@ def test_the_same_seed_calibrates_alike_and_another_does_not():
 
 def test_frames_without_a_ball_are_left_out_and_named():
     frames = [photographed(press) for press in presses(5)]
-    trained = train_gradients([*frames, BACKGROUND], BACKGROUND, SENSOR, 6.0, steps=(2, 0, 2))
+    trained = train_gradients([*frames, BACKGROUND], BACKGROUND, SENSOR, 6.0, steps=2)
     assert list(trained.rejected) == [5]
     with pytest.raises(TouchError, match="a ball was found in 4 of 5 frames"):
         train_gradients([*frames[:4], BACKGROUND], BACKGROUND, SENSOR, 6.0)

@@ -194,7 +194,7 @@ def test_weights_that_do_not_match_their_configuration_are_refused(tmp_path: Pat
     path = tmp_path / "config.json"
     path.write_text(path.read_text().replace('"dim": 24', '"dim": 48'))
     write_manifest(tmp_path)
-    with pytest.raises(WeightsError, match="does not match its config.*tacgrasp train llm"):
+    with pytest.raises(WeightsError, match=r"does not match its config.*tacgrasp train llm"):
         load_frozen(tmp_path)
     with pytest.raises(WeightsError, match="holds no encoder"):
         load_frozen(tmp_path / "none")

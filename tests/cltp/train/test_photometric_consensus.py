@@ -1,4 +1,4 @@
-"""The network that several agree on: exact for a quadratic law, and steadier than each of them."""
+"""The network that several agree on: exact for a cubic law, and steadier than each of them."""
 
 import math
 
@@ -7,6 +7,8 @@ import pytest
 import torch
 
 from cltp.train.photometric.consensus import (
+    Gel,
+    Pixels,
     consensus_steps,
     fit_law,
     law_features,
@@ -22,34 +24,48 @@ def pixels(count: int, seed: int) -> torch.Tensor:
     return 2 * torch.rand(count, 5, generator=rng) - 1
 
 
+def brightness_of(places: torch.Tensor) -> torch.Tensor:
+    """A gel that is three times as bright in the middle as in its corners."""
+    return 1.5 - 0.5 * places.square().sum(1)
+
+
 def slopes_of_a_law(inputs: torch.Tensor) -> torch.Tensor:
     """A lamp that falls off to the right, and a colour that saturates."""
     red, green, _, x, y = inputs.T
     return torch.stack([red * (1 - 0.4 * x * x) + 0.2 * red * green * y, green - 0.3 * green**2], 1)
 
 
-def test_a_quadratic_law_is_found_exactly() -> None:
+def slopes_of_a_shaded_law(inputs: torch.Tensor) -> torch.Tensor:
+    """The same in the shade of ``brightness_of``, with a colour that saturates to its cube."""
+    colours = inputs[:, :3] / brightness_of(inputs[:, 3:])[:, None]
+    slopes = slopes_of_a_law(torch.cat([colours, inputs[:, 3:]], dim=1))
+    return slopes + 0.1 * colours[:, :2] ** 3
+
+
+def test_a_cubic_law_of_colours_over_brightness_is_found() -> None:
     inputs = pixels(3000, seed=0)
-    assert law_features(inputs).shape == (3000, 54)
-    law = fit_law(inputs, slopes_of_a_law(inputs))
+    lit = brightness_of(inputs[:, 3:])
+    assert law_features(inputs, lit).shape == (3000, 114)
+    law = fit_law(inputs, lit, slopes_of_a_shaded_law(inputs))
     new = pixels(500, seed=1)
-    torch.testing.assert_close(law_features(new) @ law, slopes_of_a_law(new), atol=2e-4, rtol=0)
+    found = law_features(new, brightness_of(new[:, 3:])) @ law
+    torch.testing.assert_close(found, slopes_of_a_shaded_law(new), atol=2e-3, rtol=0)
 
 
 def test_a_law_gives_no_slope_where_no_colour_changed() -> None:
     inputs = pixels(10, seed=2)
     inputs[:, :3] = 0
-    assert not law_features(inputs).any()
+    assert not law_features(inputs, torch.ones(10)).any()
 
 
 def test_columns_that_are_all_zero_do_not_spoil_a_fit() -> None:
     inputs = pixels(2000, seed=3)
     inputs[:, 2] = 0  # a lamp that is off
-    law = fit_law(inputs, slopes_of_a_law(inputs))
+    lit = brightness_of(inputs[:, 3:])
+    law = fit_law(inputs, lit, slopes_of_a_shaded_law(inputs))
     assert torch.isfinite(law).all()
-    torch.testing.assert_close(
-        law_features(inputs) @ law, slopes_of_a_law(inputs), atol=2e-4, rtol=0
-    )
+    found = law_features(inputs, lit) @ law
+    torch.testing.assert_close(found, slopes_of_a_shaded_law(inputs), atol=2e-3, rtol=0)
 
 
 def test_the_consensus_errs_less_between_the_places_than_a_network_alone() -> None:
@@ -74,6 +90,13 @@ def test_the_consensus_errs_less_between_the_places_than_a_network_alone() -> No
         train_net(model, inputs, targets, steps, generator, lambda: None)
         alone.append(error(model))
     generator = torch.Generator().manual_seed(0)
-    together = train_consensus(inputs, targets, steps, generator, lambda: done.append(1))
+    gel = Gel(places=inputs[:, 3:], brightness=torch.ones(len(inputs)))
+    known = Pixels(
+        colours=inputs[:, :3],
+        smooth=inputs[:, :3],
+        slopes=targets,
+        index=torch.arange(len(inputs)),
+    )
+    together = train_consensus(known, gel, steps, generator, lambda: done.append(1))
     assert error(together) < min(alone)
     assert len(done) == consensus_steps(steps)

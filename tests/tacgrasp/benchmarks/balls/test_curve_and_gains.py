@@ -19,7 +19,7 @@ from tacgrasp.bringup.ball_frames import read_ball_frames
 from tacgrasp.bringup.ball_spread import spread_presses
 
 SENSOR = SENSORS["gelsight_mini"]
-BRIEF = partial(train_gradients, steps=(60, 60, 60))
+BRIEF = partial(train_gradients, steps=60)
 
 
 def test_the_figures_of_a_point_are_those_of_all_its_subsets_together():
@@ -54,7 +54,7 @@ def test_a_number_of_presses_that_leaves_none_is_refused(count, folder, capsys):
 
 
 def test_artificial_gains_are_found_in_held_out_presses(folder, tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr(curve, "train_gradients", partial(train_gradients, steps=(100, 100, 200)))
+    monkeypatch.setattr(curve, "train_gradients", partial(train_gradients, steps=200))
     report = tmp_path / "gains.json"
     settings = BallGainsSettings(
         data=folder, diameter_mm=6.0, presses=(3, 5), subsets=8, json=report

@@ -73,7 +73,7 @@ def test_describe_asks_for_the_background_of_a_frame(folder, capsys):
 
 
 def test_the_benchmark_measures_presses_that_it_left_out(folder, tmp_path, capsys, monkeypatch):
-    brief = partial(train_gradients, steps=(100, 100, 200))
+    brief = partial(train_gradients, steps=200)
     monkeypatch.setattr(bench_balls, "train_gradients", brief)
     report = tmp_path / "balls.json"
     came_out = bench_balls.run(BallsSettings(data=folder, diameter_mm=6.0, folds=2, json=report))
