@@ -45,6 +45,13 @@ _LIST = re.compile(r"[^,]+(?:, *(?:\S+ ?){1,4})+")
 
 _SENTENCE = re.compile(r"[^.!?]+(?:[.](?=\d)[^.!?]*)*[.!?]*")
 
+_BEARS_ON_IT = re.compile(
+    r"[\d:]|\b(?:pick|choose|answer|say|tell|give|name|one word|sentence|assume|suppose|if|imagine|"
+    r"rule|only|not|call|means?)\b",
+    re.I,
+)
+"""What a sentence beside a question has that changes what is asked."""
+
 _CALLED_FALSE = re.compile(
     r"(?:would (?:i|we|you) be (?:wrong|mistaken|incorrect) (?:to (?:say|claim|assume|think|state)|"
     r"in (?:saying|thinking|assuming))(?: that)?|(?:is|was|would) it (?:be )?(?:(?:false|"
@@ -89,7 +96,10 @@ def alone_asked(question: str) -> str:
     """
     sentences = [each.strip() for each in _SENTENCE.findall(question)]
     asking = [each for each in sentences if each.endswith("?")]
-    return asking[0] if len(asking) == 1 < len(sentences) else question
+    beside = " ".join(each for each in sentences if not each.endswith("?"))
+    if len(asking) != 1 or not beside or _BEARS_ON_IT.search(beside):
+        return question
+    return asking[0]
 
 
 def denied_statement(question: str) -> str:

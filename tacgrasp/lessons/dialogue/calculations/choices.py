@@ -87,6 +87,7 @@ _HALVES = re.compile(
     rf"(?:half |part |side |one )?or "
     rf"(?:is it |the |in the |more )*(?:{_UPPER}|{_LOWER})\b.*"
 )
+_ASKS_WHERE = re.compile(r"(?:is|are|does|do|would|which|what|where|in which|on which|contact)\b")
 _PLACED = re.compile(r"\b(?:half|side|part|where|contact|middle|center|pad|thing|gel)\b")
 _NOT_PLACED = re.compile(
     r"\b(?:if|how|than|straight|band|range|window|force|limit|goal|target|depth|area|mass|edge|offset|matter|whether|#\d+|should|move|go)\b"
@@ -205,6 +206,11 @@ def _covered(asked: AskedWords) -> Calculated | None:
 def _half(asked: AskedWords) -> Calculated | None:
     """The upper or the lower half of the pad, in the question's own words."""
     found = _HALVES.fullmatch(asked.words)
-    if found is None or not _PLACED.search(asked.words) or _NOT_PLACED.search(asked.words):
+    if (
+        found is None
+        or not _ASKS_WHERE.match(asked.words)
+        or not _PLACED.search(asked.words)
+        or _NOT_PLACED.search(asked.words)
+    ):
         return None
     return Calculated(truth=f"'{found['up']}' if y_mm > 0 else '{found['down']}'", unit=None)
