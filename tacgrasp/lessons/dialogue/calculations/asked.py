@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from tacgrasp.lessons.dialogue.calculations.quantity_names import UNIT, is_band, unit_of
-from tacgrasp.lessons.dialogue.calculations.terms import Term, TermReader
+from tacgrasp.lessons.dialogue.calculations.terms import Term, TermReader, alike
 from tacgrasp.lessons.dialogue.conditions import number_text
 from tacgrasp.lessons.dialogue.plainer import plainer
 from tacgrasp.lessons.dialogue.query import asked_text
@@ -141,6 +141,24 @@ class AskedWords:
             end = "band_high_n" if is_above else "band_low_n"
             return Term(expression=end, dimension="force", words=words)
         return self.term(words)
+
+    def pair(
+        self, a: str | None, b: str, *, is_above: bool | None = None
+    ) -> tuple[Term, Term] | None:
+        """Two terms in one dimension; without the first it is the usual one beside the second.
+
+        Above or below the band is above or below its end.
+        """
+        second = self.term(b) if is_above is None else self.bound(b, is_above=is_above)
+        if second is None:
+            return None
+        if not a:
+            first = self.subject or (
+                usual(second.dimension) if usual_unit(second.dimension) else None
+            )
+        else:
+            first = self.term(a, beside=second)
+        return alike(first, second) if first else None
 
     def in_its_unit(self, words: str) -> str:
         """Words whose bare numbers have the unit that the question names beside them."""

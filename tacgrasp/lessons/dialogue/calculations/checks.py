@@ -222,10 +222,6 @@ def _condition(asked: AskedWords, words: str, *, joint: str) -> str | None:
 
 
 def _pair(asked: AskedWords, a: str, b: str, *, is_above: bool = True) -> tuple[Term, Term] | None:
-    second = asked.bound(b, is_above=is_above)
-    first = asked.term(a, beside=second) if second else None
-    if first is None or second is None:
-        return None
-    pair = alike(first, second)
-    has_quantity = first.has_quantity or second.has_quantity
-    return pair if has_quantity else None
+    """Two terms in one dimension, at least one of which is more than a number."""
+    pair = asked.pair(a, b, is_above=is_above)
+    return pair if pair and any(term.has_quantity for term in pair) else None

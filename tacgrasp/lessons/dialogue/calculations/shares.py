@@ -1,0 +1,148 @@
+"""Questions for a share or a ratio of two terms.
+
+    What percentage of 2 mm is the depth?       100 * depth_mm / 2
+    How much of the limit is unused?            100 - 100 * force_n / limit_n
+    Ratio of force to depth, in N/mm?           force_n / depth_mm
+
+Not here: sums and differences (``tacgrasp.lessons.dialogue.calculations.differences``).
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+
+from tacgrasp.lessons.dialogue.calculations.asked import AskedWords, usual_unit
+from tacgrasp.lessons.dialogue.calculations.phrases import ABOVE, BELOW, IS, PARTS
+from tacgrasp.lessons.dialogue.calculations.terms import PLAIN, Term
+
+_TAIL = (
+    r"(?: (?:amount|come|correspond|add up|be equal|equal) to| makes?(?: up)?| takes? up| "
+    r"represents?|"
+    r" at| uses?(?: up)?| be| equals?| account for| cover)?"
+)
+_USED = r"(?:taken up|used|used up|filled|consumed|reached|covered|exhausted)"
+_FREE = (
+    r"(?:unused|left|left over|free|available|remaining|in reserve|not used|spare|to spare|unspent|"
+    r"still there|untapped)"
+)
+
+_SHARES = tuple(
+    re.compile(pattern)
+    for pattern in (
+        rf"(?:what|how many|how much|which) {PARTS} of (?P<b>.+) {IS} (?P<a>.+?){_TAIL}",
+        rf"(?P<a>.+) (?:is|are|makes|amounts? to|represents?|equals?|comes? to|corresponds? to) "
+        rf"(?:what|how many|which) {PARTS} of (?P<b>.+)",
+        rf"how much of (?P<b>.+) (?:is|are) {_USED} by (?P<a>.+)",
+        r"how much of (?P<b>.+) (?:does|do) (?P<a>.+) (?:take up|use(?: up)?|fill|make up)",
+        rf"(?:what is |how much is )?(?P<a>.+) (?:as|in|expressed as) (?:an? )?{PARTS} of "
+        rf"(?P<b>.+)",
+        r"(?:what is |how much is )?(?P<a>.+) relative to (?P<b>.+)",
+        rf"what (?:does|do|would) (?P<a>.+) (?:come|amount) to (?:as|in) (?:an? )?{PARTS} "
+        rf"of (?P<b>.+)",
+    )
+)
+_RATIOS = tuple(
+    re.compile(pattern)
+    for pattern in (
+        r"how many times(?: \w+)? (?:is|are) (?P<a>.+) (?:than|as|of) (?P<b>.+)",
+        r"how many times (?:does|do) (?P<b>.+) (?:fit|go) (?:in|into) (?P<a>.+)",
+        r"(?:(?:what|how much) (?:do|would) (?:you|we|i) (?:get|have) (?:if|when) (?:you|we|"
+        r"i) )?divide "
+        r"(?P<a>.+) by (?P<b>.+)",
+        r"(?:what is )?(?P<a>.+) divided by (?P<b>.+)",
+        r"(?:what is |the )*ratio (?:of|between) (?P<a>.+) (?:to|and) (?P<b>.+)",
+        r"how many times (?P<b>the .+?) (?:is|are) (?P<a>.+)",
+        r"by (?:what|which) (?:factor|number) (?:would|must|should|do|could|can) (?:i|we|"
+        r"you) (?:have to )?"
+        r"(?:multiply|scale|raise) (?P<b>.+) to (?:land (?:exactly )?on|get(?: to)?|reach|be "
+        r"at|obtain) (?P<a>.+)",
+    )
+)
+_EXCEEDED = re.compile(
+    rf"by (?:what|how many|how much|which) {PARTS} (?:is|are|does|do) (?P<a>.+?) "
+    rf"(?:(?P<below>{BELOW})|(?P<above>{ABOVE})) (?P<b>.+)"
+)
+_MULTIPLIED = re.compile(r"multiply (?P<a>.+) by (?P<b>#\d+)")
+_UNUSED = re.compile(
+    rf"(?:what|how many|how much|which)(?: {PARTS})? of (?P<b>.+?)(?: is| are| do we(?: still)? "
+    rf"have| have we)?"
+    rf"(?: still)?(?: remains?| stays?| is)? {_FREE}"
+)
+_THICK = re.compile(
+    r"(?:if|suppose|assuming|say|given) (?:the|this|our) (?:gel|pad|skin) (?:is|were|was) "
+    r"(?P<b>#\d+ \w+) thick (?:what|how many|"
+    rf"which) {PARTS} of (?:it|that|the (?:thickness|gel))\b.*"
+)
+_COVERED = re.compile(r"how much of (?:the )?pad is (?:touched|covered|pressed|in contact)")
+
+
+def share(asked: AskedWords) -> Term | None:
+    """A term as a share of another one."""
+    for pattern in _SHARES:
+        found = pattern.fullmatch(asked.words)
+        if found and (pair := asked.pair(found["a"], found["b"])):
+            a, b = pair
+            if asked.is_ratio:
+                return Term(expression=f"{a.factor} / {b.divisor}", dimension=PLAIN, words="")
+            return Term(
+                expression=f"100 * {a.factor} / {b.divisor}", dimension="fraction", words=""
+            )
+    return None
+
+
+def ratio(asked: AskedWords) -> Term | None:
+    """How many times a term another one is, by how many percent it exceeds it, and a product."""
+    for pattern in _RATIOS:
+        found = pattern.fullmatch(asked.words)
+        if found and (pair := asked.pair(found["a"], found["b"])):
+            return Term(
+                expression=f"{pair[0].factor} / {pair[1].divisor}", dimension=PLAIN, words=""
+            )
+        if found and (per := _per(asked.term(found["a"]), asked.term(found["b"]))):
+            return per
+    if found := _EXCEEDED.fullmatch(asked.words):
+        pair = asked.pair(found["a"], found["b"], is_above=bool(found["above"]))
+        if pair is not None:
+            more, less = pair if found["above"] else pair[::-1]
+            share = f"100 * ({more.expression} - {less.factor}) / {pair[1].divisor}"
+            return Term(expression=share, dimension="fraction", words="")
+    if found := _MULTIPLIED.fullmatch(asked.words):
+        term, times = asked.term(found["a"]), asked.term(found["b"])
+        if term is not None and times is not None:
+            return replace(term, expression=f"{times.expression} * {term.factor}")
+    return None
+
+
+def unused(asked: AskedWords) -> Term | None:
+    """What is left of a limit, as a share of it or as a force."""
+    found = _UNUSED.fullmatch(asked.words)
+    whole = asked.term(found["b"]) if found else None
+    if whole is None or whole.dimension != "force":
+        return None
+    if asked.unit not in ("", "%"):
+        return Term(
+            expression=f"{whole.expression} - force_n", dimension="force", words="", is_sum=True
+        )
+    share = f"100 - 100 * force_n / {whole.divisor}"
+    return Term(expression=share, dimension="fraction", words="", is_sum=True)
+
+
+def whole_share(asked: AskedWords) -> Term | None:
+    """The touched part of the pad as a plain number, and the depth over a gel's named thickness."""
+    if asked.is_ratio and _COVERED.fullmatch(asked.words):
+        return Term(expression="area_percent / 100", dimension=PLAIN, words="")
+    found = _THICK.fullmatch(asked.words)
+    thick = asked.term(found["b"]) if found else None
+    if thick is None or thick.dimension != "length":
+        return None
+    share = f"100 * depth_mm / {thick.divisor}"
+    return Term(expression=share, dimension="fraction", words="")
+
+
+def _per(a: Term | None, b: Term | None) -> Term | None:
+    """A quantity over one of another dimension, in units such as N/mm."""
+    units = [usual_unit(term.dimension) for term in (a, b) if term and term.has_quantity]
+    if a is None or b is None or len(units) < 2 or not all(units) or a.dimension == b.dimension:
+        return None
+    return Term(expression=f"{a.factor} / {b.divisor}", dimension="/".join(units), words="")
