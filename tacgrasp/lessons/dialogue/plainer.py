@@ -75,6 +75,7 @@ _POLITE_VERB = re.compile(
 )
 _SIGNS = (
     (re.compile(r"\|\s*([xy])\s*\|", re.I), r"abs \1"),
+    (re.compile(r"(?:(?<=^)|(?<=\s))[-−]\s?(?=[xy]\b)", re.I), "minus "),
     (re.compile(r"\b(limit|ceiling) ?[-−] ?(?=(?:the )?force\b)", re.I), r"\1 minus "),
     (re.compile(r" ?(?:>=|≥) ?"), " at least "),
     (re.compile(r" ?(?:<=|≤) ?"), " at most "),

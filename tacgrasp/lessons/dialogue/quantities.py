@@ -237,7 +237,8 @@ def value_text(value: float, unit: str) -> str:
     if unit == "%":
         return f"{'-' if value < 0 else ''}{percent_text(abs(value))} %"
     known = UNITS.get(unit)
-    size = known.size if known else 1.0
+    one, _, each = unit.partition("/")
+    size = known.size if known else UNITS[one].size / UNITS[each].size if each else 1.0
     base = 0 if known and known.dimension == "mass" else 2 if abs(value) >= 0.1 else 3
     decimals = max(0, base + round(math.log10(size)))
     return f"{round(value / size, decimals) + 0.0:.{decimals}f} {unit}".rstrip()

@@ -90,6 +90,10 @@ def test_a_unit_that_is_asked_for_is_the_one_that_is_given():
         "What's the pressure in kPa?",
         "Is 0.2 N within the band?",
         "If I raise it by 0.2 N, is that too much?",
+        "Is twice the limit exceeded?",
+        "Is the limit three times the force?",
+        "Does exactly one hold, force over 2 N or depth over 1 mm?",
+        "Is the force more than 5 N per mm?",
     ],
 )
 def test_what_no_query_has_is_not_taken_for_something_near(question):

@@ -76,9 +76,17 @@ def amount_of(term: Term, asked: AskedWords) -> Calculated | None:
         expression = f"max(0, {expression})"
     unit = asked.unit or usual_unit(term.dimension)
     if term.dimension == PLAIN:
-        return Calculated(truth=expression, unit="")
+        if "/" in asked.unit:
+            return None
+        is_percent = asked.unit == "%"
+        return Calculated(
+            truth=f"100 * {expression}" if is_percent else expression,
+            unit="%" if is_percent else "",
+        )
     if "/" in term.dimension:
         return Calculated(truth=expression, unit=term.dimension)
+    if unit not in UNITS:
+        return None
     if UNITS[unit].dimension == "force" and term.dimension == "mass":
         return Calculated(truth=in_newtons(term).expression, unit=unit)
     if UNITS[unit].dimension == "area" and "area_percent" in expression and term.is_sum is False:

@@ -25,12 +25,14 @@ _USUAL: Mapping[str, tuple[str, str]] = {
 
 _ITS = re.compile(r"\bits\b", re.I)
 _PRONOUN = re.compile(
-    r"(?:(?:we|us|me|it|this|that|i|you|they|these|those|one|he|she|the (?:robot|gripper|"
+    r"(?:(?:we|us|me|it|this|that|i|you|they|these|those|he|she|the (?:robot|gripper|"
     r"contact|object|"
     r"thing|result|reading|value|touch|fingers?)|what you feel|what there is)(?: (?:now|"
     r"pressing|gripping|"
     r"here))?)"
 )
+_PEOPLE = re.compile(r"(?:we|us|me|i|you|they)\b")
+_AS_IT_IS = re.compile(r"\b(?:present|presently|current|currently|now|old)\b")
 _GRAVITY = re.compile(
     r"^(?:with|using|at|for|taking) (?:a |the )?(?:g |gravity )?(?:of )?#\d+ m\b \S+ "
 )
@@ -66,12 +68,17 @@ _ONE_MORE = re.compile(
     rf"({UNIT})\b"
 )
 _PER_UNIT = re.compile(
-    rf"(?: (?:in|how (?:many|much)))? (?:{UNIT}) per (?:{UNIT})(?: (?:is|are|does|do) "
+    rf"(?: (?:in|how (?:many|much)) | )(?P<one>{UNIT}) per (?P<each>{UNIT})(?: (?:is|are|does|do) "
     rf"(?:that|it|this)(?: \w+)*)?$"
 )
 _EXTRA_ONE = re.compile(rf"\bone extra (?={UNIT}\b)|\banother (?=half (?:an? )?(?:{UNIT})\b)")
 _FULL_ONE = re.compile(rf"\b(?:one|an?) (?:full|whole|single) (?={UNIT}\b)")
 _PER_SLASH = re.compile(rf"\b({UNIT}) ?/ ?({UNIT})\b")
+_SLASH = re.compile(r"(?<=[a-z]) ?/ ?(?=(?:the )?(?:force|limit|depth|area|mass|weight|x|y)\b)")
+_HOLD_ALL = re.compile(
+    r"(?:do|does|are|is) (?:(?:both|all)(?: of (?:them|these))?|the following)(?: conditions)? "
+    r"(?:hold|holds|true|met|satisfied|the case|so)[:,]? "
+)
 _WERE_TO = re.compile(r"^(?:were|should|if) (i|we|you|it|the \w+) (?:were )?to ")
 _KEEPING_SIGNS = re.compile(r",? (?:keeping|with|counting) (?:the|their) signs?\b")
 _AT_ONCE = re.compile(r" (?:at the same time|simultaneously|together|at once)$")
@@ -108,12 +115,13 @@ class AskedWords:
     Attributes:
         words: Its plain words, without what they say of unit and sign; numbers are #1, #2, ...
         numbers: Its numbers.
-        unit: Symbol of the unit that is asked for; '' where none is.
+        unit: Symbol of the unit that is asked for, or of a quotient of two; '' where none is.
         is_ratio: Whether a share is asked for as a plain number.
         is_unsigned: Whether the sign is to be left out.
         has_floor: Whether what is below zero counts as zero.
         is_signed: Whether a difference is asked for with its sign.
         subject: What its pronouns stand for; None for the usual quantity of a dimension.
+        base: Name of a scene that the question supposes to be ``subject``; ''.
     """
 
     words: str
@@ -124,16 +132,28 @@ class AskedWords:
     has_floor: bool = False
     is_signed: bool = False
     subject: Term | None = None
+    base: str = ""
 
     def term(self, words: str, beside: Term | None = None) -> Term | None:
         """The meaning of a noun phrase, or of a pronoun beside another term; None of others."""
         if not _PRONOUN.fullmatch(words):
-            return TermReader(self.numbers).read(words)
-        if self.subject is not None:
+            read = TermReader(self.numbers).read(words)
+            return read if read is None or _AS_IT_IS.search(words) else self._supposed(read)
+        if self.subject is not None and not _PEOPLE.match(words):
             return self.subject
-        if beside is None or beside.dimension not in _USUAL:
+        if beside is None or beside.dimension not in _USUAL or beside.expression.startswith("-"):
             return None
-        return usual(beside.dimension)
+        return self._supposed(usual(beside.dimension))
+
+    def _supposed(self, term: Term) -> Term:
+        """A term with what the question supposes in place of what is."""
+        if self.subject is None or not re.search(rf"\b{self.base or '-'}\b", term.expression):
+            return term
+        value = f"({self.subject.expression})"
+        if term.expression == self.base:
+            return replace(self.subject, words=term.words, is_weight=term.is_weight)
+        expression = re.sub(rf"\b{self.base}\b", value, term.expression)
+        return replace(term, expression=expression)
 
     def bound(self, words: str, *, is_above: bool) -> Term | None:
         """As ``term``; above the band is above its upper end, below it below its lower one."""
@@ -150,15 +170,17 @@ class AskedWords:
         Above or below the band is above or below its end.
         """
         second = self.term(b) if is_above is None else self.bound(b, is_above=is_above)
+        if second is None and a and _PRONOUN.fullmatch(b):
+            second = self.term(b, beside=self.term(a))
         if second is None:
             return None
-        if not a:
-            first = self.subject or (
-                usual(second.dimension) if usual_unit(second.dimension) else None
-            )
-        else:
-            first = self.term(a, beside=second)
-        return alike(first, second) if first else None
+        felt = usual(second.dimension) if usual_unit(second.dimension) else None
+        first = self.term(a, beside=second) if a else self.subject or felt
+        if first and felt and first.expression == second.expression:
+            first = self._supposed(felt)  # 'if the limit fell, would we exceed it'
+        if first is None or first.expression == second.expression:
+            return None
+        return alike(first, second)
 
     def in_its_unit(self, words: str) -> str:
         """Words whose bare numbers have the unit that the question names beside them."""
@@ -168,9 +190,9 @@ class AskedWords:
             rf"(#\d+)(?! (?:{UNIT})\b| times| \w+ of )", rf"\1 {self.unit.lower()}", words
         )
 
-    def about(self, subject: Term, words: str) -> AskedWords:
-        """The rest of the question, whose pronouns stand for a term."""
-        return replace(self, words=words, subject=subject)
+    def about(self, subject: Term, words: str, base: str = "") -> AskedWords:
+        """The rest of the question, whose pronouns stand for a term, and so does a name."""
+        return replace(self, words=words, subject=subject, base=base)
 
     def said(self, words: str) -> str:
         """Plain words as an answer repeats them, with the numbers in place."""
@@ -199,7 +221,9 @@ def asked_words(question: str) -> AskedWords:
     question = _EXTRA_ONE.sub("another ", _ITS.sub("the", question.lower()))
     question = _FULL_ONE.sub("1 ", _ONE_MORE.sub(r"1 \1 more", question))
     question = _PER_SLASH.sub(r"\1 per \2", _KEEPING_SIGNS.sub("", question))
-    question = _WERE_TO.sub(r"if \1 ", question)
+    question = _SLASH.sub(" divided by ", _WERE_TO.sub(r"if \1 ", question))
+    if _HOLD_ALL.search(question):
+        question = re.sub(r"[,;:] (?!and |or )", " and ", _HOLD_ALL.sub("both ", question))
     asked = asked_text(plainer(question))
     places = iter(range(1, len(asked.numbers) + 1))
     words = re.sub("#", lambda _: f"#{next(places, 0)}", asked.words)
@@ -208,8 +232,12 @@ def asked_words(question: str) -> AskedWords:
     has_floor = zero is not None and asked.numbers[int(zero[1][1:]) - 1] == 0
     if zero is not None and has_floor:
         words = words[: zero.start()]
-    for remark in (_GIVEN_MASS, _ANSWERED, _TAKING_G, _PER_UNIT, _AT_ONCE, _REMARK):
+    for remark in (_GIVEN_MASS, _ANSWERED, _TAKING_G, _AT_ONCE, _REMARK):
         words = remark.sub("", words)
+    per = ""
+    if (found := _PER_UNIT.search(words)) and not re.search(r"#\d+$", words[: found.start()]):
+        per = f"{unit_of(found['one'])}/{unit_of(found['each'])}"
+        words = words[: found.start()]
     words = _AMOUNT_OF.sub("how much", words)
     is_unsigned = _UNSIGNED.search(words) is not None
     is_signed = _SIGNED.search(words) is not None
@@ -219,7 +247,7 @@ def asked_words(question: str) -> AskedWords:
     return AskedWords(
         words=" ".join(words.split()),
         numbers=asked.numbers,
-        unit=unit,
+        unit=per or unit,
         is_ratio=is_ratio,
         is_unsigned=is_unsigned,
         has_floor=has_floor,

@@ -40,6 +40,7 @@ _CHANGES = tuple(
         ("+", rf"(?P<a>.+?) {_UP} by (?:another )?(?P<b>.+)"),
         ("-", rf"(?P<a>.+?) {_DOWN} by (?P<b>.+)"),
         ("=", rf"(?P<a>.+?) (?:{_UP}|{_DOWN}|{_WAS}(?:set|changed)) to (?P<b>.+)"),
+        ("=", r"(?P<a>.+?) (?:was|were|is)(?: only| just)? (?P<b>#\d+ \w+|twice .+|half .+)"),
         ("+", rf"{_WHO} {_RAISED} (?P<a>.+?) by (?P<b>.+)"),
         ("-", rf"{_WHO} {_LOWERED} (?P<a>.+?) by (?P<b>.+)"),
         ("=", rf"{_WHO} (?:set|{_RAISED}|{_LOWERED}) (?P<a>.+?) to (?P<b>.+)"),
@@ -122,7 +123,7 @@ def _gripped(asked: AskedWords, change: str) -> Term | None:
         if by is None or by.dimension not in ("force", "length", "mass"):
             return None
         is_less = pattern is _EASED or (pattern is _PRESSED and found["less"] is not None)
-        felt = usual("length" if by.dimension == "length" else "force")
+        felt = usual("force" if pattern is _PRESSED and by.dimension == "mass" else by.dimension)
         return _by(felt, "-" if is_less else "+", by)
     found = _LOADED.fullmatch(change)
     load = asked.term(found["b"]) if found else None

@@ -57,6 +57,17 @@ _PUSHED = re.compile(
     r"(?:we|you|i|it|the gripper)(?: are| is)? (?:push|press|squeez|gripp?)(?:ing|es|e|"
     r"ed)?(?: on it)? (?:harder|more) than"
 )
+_AMOUNT = r"(?:(?P<more>more than|over)|(?P<fewer>less than|under)|at least)"
+_SIDES = (
+    r"(?:(?P<up>exceeds?|above|over|beyond|(?:greater|larger|higher|more|heavier|deeper) than)|"
+    r"(?:below|under|beneath|(?:less|smaller|lower|lighter) than))"
+)
+_BY = re.compile(
+    rf"(?P<a>.+?)(?: {_ADVERB})*(?: {_BE})? {_SIDES} (?P<b>.+) by (?:{_AMOUNT} )?(?P<c>#\d+ \w+)"
+)
+_SO_MUCH = re.compile(
+    rf"(?P<a>.+?)(?: {_ADVERB})*(?: {_BE})? (?:{_AMOUNT} )?(?P<c>#\d+ \w+) {_SIDES} (?P<b>.+)"
+)
 _LIMIT = re.compile(
     rf"(?:the )?(?:force )?(?:limit|ceiling)(?: {_ADVERB})*(?: be)?(?: {_ADVERB})* "
     rf"(?:(?P<kept>respected|kept|observed|"
@@ -82,6 +93,11 @@ _ANY = re.compile(
     r"(?: (?:is|are|holds?|true|satisfied|met|the case|fulfilled|of the following))*"
 )
 _ASKS_ANY = re.compile(rf"^(?:{_VERB} )?{_ANY.pattern} | {_ANY.pattern}$")
+_ONE_OF = re.compile(
+    rf"(?:{_VERB} )?(?:at least one|any|either|one) of (?=.+? and .+? (?:{_VERB} )?(?:more|"
+    rf"less|above|over|below|under|"
+    r"greater|larger|smaller|exceed))"
+)
 _JOINT = re.compile(r" (and|or) ")
 _BARE = re.compile(
     r"(?:pressed|pushed|squeezed|held|gripped|touched) with (?=(?:more|less|at least|at most|"
@@ -103,7 +119,9 @@ _RESERVE = re.compile(
 def calculated_check(asked: AskedWords) -> Calculated | None:
     """What a question asks whether it is so; None where it asks for no such thing."""
     words, is_any = asked.words, False
-    if _ASKS_ANY.search(words):
+    if one_of := _ONE_OF.match(words):
+        is_any, words = True, words[one_of.end() :].replace(" and ", " or ")
+    elif _ASKS_ANY.search(words):
         is_any, words = True, _ASKS_ANY.sub("", words)
     elif begin := re.match(rf"{_VERB} (?=.)", words):
         words = words[begin.end() :]
@@ -133,15 +151,25 @@ def condition_of(asked: AskedWords, words: str) -> str | None:
         if place.dimension == "length" and name in place.expression:
             return f"{place.expression} {'<' if found['side'] in ('left', 'below') else '>'} 0"
     if found := _LIMIT.fullmatch(words):
-        felt = asked.subject or usual("force")
-        if felt.dimension == "force":
-            return f"{felt.expression} {'<=' if found['kept'] else '>'} limit_n"
+        pair = asked.pair("we", "the limit")
+        return (
+            f"{pair[0].expression} {'<=' if found['kept'] else '>'} {pair[1].factor}"
+            if pair
+            else None
+        )
+    for pattern in (_BY, _SO_MUCH):
+        if (found := pattern.fullmatch(words)) and (told := _apart(asked, found)):
+            return told
     words = _PUSHED.sub("force more than", words)
     if found := _NEARER.fullmatch(words):
         pairs = [
             _pair(asked, found["a"], each) for each in shared_noun(asked, found["b"], found["c"])
         ]
         apart = [f"abs({pair[0].expression} - {pair[1].factor})" for pair in pairs if pair]
+        if len(pairs) == 2 and pairs[0] and not pairs[0][1].has_quantity:
+            others = _pair(asked, found["c"], found["b"])  # 'y nearer to zero than x'
+            if others and others[0].has_quantity:
+                apart[1:] = [f"abs({others[0].expression} - {others[1].factor})"]
         return " < ".join(apart) if len(apart) == 2 else None
     if found := _WITHIN.fullmatch(words):
         pair = _pair(asked, found["a"], found["b"])
@@ -165,6 +193,19 @@ def condition_of(asked: AskedWords, words: str) -> str | None:
             inside = f"band_low_n <= {force.factor} <= band_high_n"
             return f"not ({inside})" if found["out"] else inside
     return _comparison(asked, words)
+
+
+def _apart(asked: AskedWords, found: re.Match[str]) -> str | None:
+    """How much one term is above or below another one, against a number or a percentage."""
+    pair, by = _pair(asked, found["a"], found["b"]), asked.term(found["c"])
+    if pair is None or by is None:
+        return None
+    more, less = pair if found["up"] else pair[::-1]
+    sign = "<" if found["fewer"] else ">" if found["more"] else ">="
+    if by.unit == "%":
+        return f"{more.expression} - {less.factor} {sign} {by.factor} / 100 * {pair[1].factor}"
+    near = alike(less, by)
+    return f"{more.expression} - {less.factor} {sign} {near[1].factor}" if near else None
 
 
 def _comparison(asked: AskedWords, words: str) -> str | None:
@@ -215,10 +256,18 @@ def _condition(asked: AskedWords, words: str, *, joint: str) -> str | None:
     for found in _JOINT.finditer(words):
         first = condition_of(asked, words[: found.start()])
         rest = re.sub(rf"^(?:{_VERB} )", "", words[found.end() :])
+        if _BARE.match(rest):
+            rest = f"{_subject_of(words[: found.start()])} {_BARE.sub('', rest, count=1)}"
         second = _condition(asked, rest, joint=joint) if first else None
         if first and second:
             return f"({first}){joint or found[0]}({second})"
     return None
+
+
+def _subject_of(words: str) -> str:
+    """What a condition is about; 'it' where it names nothing."""
+    told = (pattern.fullmatch(words) for _, pattern in _COMPARED)
+    return next((found["a"] for found in told if found), "it")
 
 
 def _pair(asked: AskedWords, a: str, b: str, *, is_above: bool = True) -> tuple[Term, Term] | None:

@@ -24,7 +24,8 @@ _WHICH = re.compile(
     rf"(?:which|what)(?: (?:one|figure|value|number|quantity|thing|offset|of (?:the|these) "
     rf"two|of these|"
     rf"is|are|from|the|(?:middle|center)))* (?:the )?(?:(?P<more>{_GREATER})|(?P<less>{_LESS}))"
-    rf"(?P<zero>{_FROM_ZERO})(?: one)? (?P<a>.+) or (?P<b>.+)"
+    rf"(?P<zero>{_FROM_ZERO})(?: one)?(?: of (?:the |these |those )?(?:#\d+|two|both))? "
+    rf"(?P<a>.+) or (?P<b>.+)"
 )
 _NEARER = re.compile(
     r"(?:(?:is|are|does|do|was) )?(?P<a>.+?)(?: (?:sit|lie|lying|stand|be|stay|sitting))? "
@@ -115,7 +116,9 @@ def _which(asked: AskedWords) -> Calculated | None:
         return None
     first, second = (asked.term(each) for each in shared_noun(asked, found["a"], found["b"]))
     pair = alike(first, second) if first and second else None
-    if pair is None or not (pair[0].has_quantity or pair[1].has_quantity):
+    if pair is None or pair[0].expression == pair[1].expression:
+        return None
+    if not (pair[0].has_quantity or pair[1].has_quantity):
         return None
     a, b = (f"abs({term.expression})" if found["zero"] else term.factor for term in pair)
     sign = ">" if found["more"] else "<"

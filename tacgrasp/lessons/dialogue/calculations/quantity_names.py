@@ -12,7 +12,7 @@ _THING = (
     r"(?:object|thing|berry|strawberry|fruit|item|part|piece|egg|tomato|peg|load|body|specimen|"
     r"sample|product|article|workpiece|good|goods)"
 )
-_OF_THING = r"(?: of (?:the |this |that |our )?(?!limit|force|band|depth)[a-z]+)"
+_OF_THING = rf"(?: of (?:the |this |that |our )?{_THING})"
 _BAND_NAME = (
     r"(?:(?:target|wanted|goal|force|desired|requested|required|agreed|intended|set|permitted|"
     r"allowed|given|specified|aimed at|asked for) )*(?:band|range|window|corridor|interval|"
@@ -74,7 +74,7 @@ _NAMED: Mapping[str, tuple[str, str]] = {
     r"(?:offset|position|displacement|coordinate)|contact's y": ("y_mm", "length"),
     rf"(?:radial )?(?:distance|offset)(?: of (?:the )?(?:contact|{_THING}))? (?:from|to) "
     r"(?:the )?(?:pad )?(?:middle|center)(?: of (?:the )?pad)?": ("hypot(x_mm, y_mm)", "length"),
-    rf"(?:stated |told )?mass{_OF_THING}?|(?:{_THING}|[a-z]+'s)(?: own)? mass": ("mass_g", "mass"),
+    rf"(?:stated |told )?mass{_OF_THING}?|{_THING}(?:'s)?(?: own)? mass": ("mass_g", "mass"),
     r"(?:payload|carrying capacity|holding capacity|heaviest load|load it holds)": (
         "holds_g", "mass",
     ),
@@ -88,7 +88,7 @@ _NAMED: Mapping[str, tuple[str, str]] = {
 NAMED = [(re.compile(pattern), *meant) for pattern, meant in _NAMED.items()]
 """Names of a quantity without its article, its expression, and the dimension of its unit."""
 
-WEIGHT = re.compile(rf"(?:own )?weight{_OF_THING}?|(?:{_THING}|[a-z]+'s)(?: own)? weight")
+WEIGHT = re.compile(rf"(?:own )?weight{_OF_THING}?|{_THING}(?:'s)?(?: own)? weight")
 """Names of the mass that are asked for in newtons too."""
 
 _BAND = re.compile(rf"(?:(?:the|our|this|whole|entire) )*{_BAND_NAME}")

@@ -15,6 +15,7 @@ from dataclasses import replace
 from tacgrasp.lessons.dialogue.calculations.asked import AskedWords, usual_unit
 from tacgrasp.lessons.dialogue.calculations.phrases import ABOVE, BELOW, IS, PARTS
 from tacgrasp.lessons.dialogue.calculations.terms import PLAIN, Term
+from tacgrasp.lessons.dialogue.quantities import UNITS
 
 _TAIL = (
     r"(?: (?:amount|come|correspond|add up|be equal|equal) to| makes?(?: up)?| takes? up| "
@@ -99,7 +100,7 @@ def ratio(asked: AskedWords) -> Term | None:
             return Term(
                 expression=f"{pair[0].factor} / {pair[1].divisor}", dimension=PLAIN, words=""
             )
-        if found and (per := _per(asked.term(found["a"]), asked.term(found["b"]))):
+        if found and (per := _per(asked.term(found["a"]), asked.term(found["b"]), asked.unit)):
             return per
     if found := _EXCEEDED.fullmatch(asked.words):
         pair = asked.pair(found["a"], found["b"], is_above=bool(found["above"]))
@@ -140,9 +141,13 @@ def whole_share(asked: AskedWords) -> Term | None:
     return Term(expression=share, dimension="fraction", words="")
 
 
-def _per(a: Term | None, b: Term | None) -> Term | None:
-    """A quantity over one of another dimension, in units such as N/mm."""
-    units = [usual_unit(term.dimension) for term in (a, b) if term and term.has_quantity]
-    if a is None or b is None or len(units) < 2 or not all(units) or a.dimension == b.dimension:
+def _per(a: Term | None, b: Term | None, unit: str) -> Term | None:
+    """A quantity over one of another dimension, in a quotient of units: that named, or N/mm."""
+    if a is None or b is None or a.dimension == b.dimension:
+        return None
+    units = unit.split("/") if "/" in unit else [usual_unit(term.dimension) for term in (a, b)]
+    if not (a.has_quantity and b.has_quantity) or not all(each in UNITS for each in units):
+        return None
+    if [UNITS[each].dimension for each in units] != [a.dimension, b.dimension]:
         return None
     return Term(expression=f"{a.factor} / {b.divisor}", dimension="/".join(units), words="")

@@ -18,7 +18,10 @@ from tacgrasp.lessons.dialogue.calculations.asked import AskedWords
 from tacgrasp.lessons.dialogue.calculations.changes import changed
 from tacgrasp.lessons.dialogue.calculations.checks import calculated_check
 from tacgrasp.lessons.dialogue.calculations.quantity_names import UNIT
+from tacgrasp.lessons.dialogue.calculations.terms import Term
+from tacgrasp.lessons.dialogue.expression import Expression
 from tacgrasp.lessons.dialogue.meaning import Calculated
+from tacgrasp.lessons.dialogue.scene import NAMES
 
 _SUPPOSED = re.compile(
     r"(?:if|suppose|supposing|imagine|assume|assuming|say|were|with|after|once|when)(?: "
@@ -47,6 +50,9 @@ _SUBJECT = re.compile(
 )
 """What a pronoun before or behind stands for: 'what would the force be if it rose'."""
 
+_MEASURED = {"deep": "length", "heavy": "mass", "strong": "force", "hard": "force"}
+_HOW = re.compile(rf"how ({'|'.join(_MEASURED)})\b")
+_NOUN = re.compile(r"\b(?:force|depth|mass|weight|area|limit)\b")
 _RESULT = re.compile(
     r"(?:what|how (?:much|deep|heavy|large|big|strong|hard))(?: (?:force|depth|mass|weight|"
     r"area|limit))? "
@@ -68,12 +74,31 @@ def supposed(asked: AskedWords) -> Calculated | None:
         before = asked if subject is None else asked.about(subject, change)
         if (told := changed(before, change)) is None:
             continue
-        after = asked.about(told, rest)
+        base = _base(asked, told)
+        after = asked.about(told, rest, base)
         if _RESULT.fullmatch(rest.replace(told.words, "it") if told.words else rest):
-            return amount_of(told, after)
-        if found := calculated_check(after) or calculated_amount(after):
+            named = _NOUN.search(rest)
+            about = asked.term(named[0]) if named else None
+            is_other = about is not None and about.expression != base
+            how = _HOW.match(rest)
+            is_other = is_other or (how is not None and _MEASURED[how[1]] != told.dimension)
+            return None if is_other else amount_of(told, after)
+        found = calculated_check(after) or calculated_amount(after)
+        if found and told.expression in found.truth:
             return found
     return None
+
+
+def supposes(asked: AskedWords) -> bool:
+    """Whether a question supposes a change of a quantity."""
+    return any(changed(asked, change) for change, _ in _clauses(asked.words))
+
+
+def _base(asked: AskedWords, told: Term) -> str:
+    """Name of the quantity that a supposition changes; '' where it is none of a scene."""
+    named = asked.term(told.words) if told.words else None
+    names = (named.expression,) if named else Expression(told.expression).names
+    return names[0] if len(names) == 1 and names[0] in NAMES else ""
 
 
 def _clauses(words: str) -> Iterator[tuple[str, str]]:
@@ -81,7 +106,7 @@ def _clauses(words: str) -> Iterator[tuple[str, str]]:
     if found := _WITHOUT.search(words):
         yield f"we press {found['b']} harder", "would the limit be respected"
     if found := _EXTRA.fullmatch(words):
-        yield f"we press {found['b'] or found['more']} harder", f"would it {found['rest']}"
+        yield f"{found['b'] or found['more']} came on top", f"would it {found['rest']}"
     if found := _SUPPOSED.fullmatch(words):
         for joint in _QUESTION.finditer(found["all"]):
             yield found["all"][: joint.start()], found["all"][joint.end() :]

@@ -77,7 +77,7 @@ _MULTIPLES: Mapping[str, str] = {
     r"(?:a |one )?tenth": "0.1",
 }
 _ARTICLE = re.compile(
-    r"(?:(?:the|our|your|its|this|that|an?|my|current|currently|present|presently|actual|measured|applied|exerted|"
+    r"(?:(?:the|our|your|its|this|that|an?|current|currently|present|presently|actual|measured|applied|exerted|"
     r"felt|momentary|real|whole|total|overall|existing|latest|exact|full|size of|value of|"
     r"amount of|level of|figure for|reading of|contact's|object's|of) )+(?=\S)"
 )
@@ -99,9 +99,11 @@ _OPERATIONS: Sequence[tuple[str, re.Pattern[str]]] = tuple(
     for name, pattern in (
         ("between", r"(?:difference|gap|distance|spread|room) between (.+) and (.+)"),
         ("between", r"difference (?:of|from) (.+) (?:and|to|from) (.+)"),
-        ("minus", r"(.+) (?:minus|less|reduced by|lowered by|diminished by) (.+)"),
         ("plus", r"sum of (.+) and (.+)"),
-        ("plus", r"(.+) (?:plus|increased by|raised by|together with) (.+)"),
+        (
+            "sum",
+            r"(.+) (minus|less|reduced by|lowered by|plus|increased by|raised by) (.+)",
+        ),
         ("plus", r"(.+) and (.+) (?:together|combined|added|taken together)"),
         ("ratio", r"(?:ratio|quotient) (?:of|between) (.+) (?:to|and) (.+)"),
         ("ratio", r"(.+) divided by (.+)"),
@@ -114,7 +116,11 @@ _OPERATIONS: Sequence[tuple[str, re.Pattern[str]]] = tuple(
 )
 _PERCENT_OF = re.compile(r"(#\d+) percent (?:of )?(.+)")
 _TIMES = re.compile(r"(#\d+) (?:times|fold) (.+)")
-_MULTIPLE = re.compile(rf"({'|'.join(_MULTIPLES)}) (?:of )?(.+)")
+_MULTIPLE = re.compile(rf"({'|'.join(_MULTIPLES)}) (?:of |as \w+ as )?(.+)")
+_MADE = {"doubled": "2", "halved": "0.5", "tripled": "3"}
+_MADE_SO = re.compile(r"(?:(doubled|halved|tripled) (.+)|(.+) (doubled|halved|tripled))")
+_MINUS = re.compile(r"(?:minus|negative) (.+)")
+_SO_OFTEN = re.compile(r"(.+) times (#\d+)")
 
 
 class TermReader:
@@ -172,7 +178,11 @@ def _operation(words: str, numbers: tuple[float, ...]) -> Term | None:
     for name, pattern in _OPERATIONS:
         if (found := pattern.fullmatch(words)) is None:
             continue
-        a, b = (_read(_TRAILING.sub("", part), numbers) for part in found.groups())
+        first, *sign, second = found.groups()
+        if name == "sum":
+            is_minus = sign[0] in ("minus", "less", "reduced by", "lowered by")
+            name = "minus" if is_minus else "plus"
+        a, b = (_read(_TRAILING.sub("", part), numbers) for part in (first, second))
         if a and b and (made := _made(name, a, b, words)):
             return made
     return None
@@ -266,6 +276,12 @@ def _multiple(words: str, numbers: tuple[float, ...]) -> Term | None:
         said = found[1]
         factor = next(value for name, value in _MULTIPLES.items() if re.fullmatch(name, said))
         rest = found[2]
+    elif found := _MADE_SO.fullmatch(words):
+        factor, rest = _MADE[found[1] or found[4]], found[2] or found[3]
+    elif found := _SO_OFTEN.fullmatch(words):
+        factor, rest = number_text(numbers[int(found[2][1:]) - 1]), found[1]
+    elif found := _MINUS.fullmatch(words):
+        factor, rest = "-1", found[1]
     term = _read(rest, numbers) if rest else None
     if term is None:
         return None

@@ -17,13 +17,22 @@ _SAME = r"(?:(?! and | or |[,;?]).){0,30}"
 _PATTERNS = (
     # pressures
     rf"(?:{_NUMBER}|\bin|\bof|\bmany)\s*{_PRESSURE}",
-    r"\b(?:average|mean|peak|maximum) pressure\b|\bper (?:area|unit|square|mm)\b",
+    r"\b(?:average|mean|peak|maximum) pressure\b|\bper (?:area|unit|square|mm|millimet\w+|"
+    r"newtons?|n|"
+    r"grams?|g|percent|cm|second|minute)\b",
+    # which of several conditions hold
+    r"\b(?:exactly|at most|only) one\b.*\b(?:hold|holds|true)\b|\bnot both (?:hold|true)\b",
     # units that no answer has
     r"\b(?:in|many) (?:pixels?|px|taxels?|joules?|watts?|volts?|feet|foot|yards?|"
     r"stones?|tons?|tonnes?)\b",
     # multiples
     r"\b(?:[4-9]|\d\d+) times (?:that|this|the|it|as)\b",
     r"\b(?:twice|double|triple|half) the (?:lower|upper|least|most)\b",
+    r"\b(?:twice|doubled?|half|halved|tripled?|three times|two times)(?: of| as \w+ as)?(?: "
+    r"(?:the|our|this|their|its))? "
+    r"(?:limit|weight|mass|area|pad|contact|distance|time|friction)\b",
+    r"\b(?:limit|weight|mass|area|pad|contact|distance|time|friction)\b.{0,20}\b(?:doubled|halved|tripled|"
+    r"divided by two|twice|half|three times)\b",
     # sums of a felt and a named number
     rf"{_NUMBER}\s*(?:%|\w+)?\s+(?:more|extra|less|additional|further)\b(?! than)",
     rf"\badd(?:ing|ed)? (?:another |an extra )?{_NUMBER}",

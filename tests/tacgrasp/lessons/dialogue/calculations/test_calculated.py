@@ -8,6 +8,9 @@ from tacgrasp.lessons.dialogue.query import query_of, read_query
 from tests.fakes.question_scenes import FREE, HELD, UNTOUCHED
 
 NUMBERS = [
+    ("What is the force minus 2 N plus 1 N?", "force_n - 2 + 1", "N"),
+    ("Ratio of force to depth in mN/µm?", "force_n / depth_mm", "mN/µm"),
+    ("If the area rose by 5 %, what would it be?", "(1 + 5 / 100) * area_percent", "%"),
     ("What is 40 % of the limit?", "0.4 * limit_n", "N"),
     ("Half the limit, in millinewtons?", "0.5 * limit_n", "mN"),
     ("What percentage of 2 mm is the depth?", "100 * depth_mm / 2", "%"),
@@ -60,6 +63,21 @@ NUMBERS = [
     ("What would two of them weigh?", "2 * mass_g", "g"),
 ]
 CHECKS = [
+    (
+        "Is at least one of force and weight above the limit?",
+        "force_n > limit_n or 0.00980665 * mass_g > limit_n",
+    ),
+    ("If the limit doubled, would we be over it?", "force_n > 2 * limit_n"),
+    ("Would we exceed the limit if the limit fell by 20 %?", "force_n > (1 - 20 / 100) * limit_n"),
+    ("If the mass doubled, would the weight be over 1 N?", "0.00980665 * 2 * mass_g > 1"),
+    ("If x doubled, would the distance to the middle exceed 9 mm?", "hypot((2 * x_mm), y_mm) > 9"),
+    ("Is the limit more than twice as high as the force?", "limit_n > 2 * force_n"),
+    ("Would 100 g be heavier than the object?", "100 > mass_g"),
+    ("Does the force exceed the limit by more than 1 N?", "force_n - limit_n > 1"),
+    ("Is the limit more than 20 % above the force?", "limit_n - force_n > 20 / 100 * force_n"),
+    ("Is minus x above 3 mm?", "-1 * x_mm > 3"),
+    ("Would 20 g more be over 100 g?", "mass_g + 20 > 100"),
+    ("Is y closer to zero than x?", "abs(y_mm - 0) < abs(x_mm - 0)"),
     ("Are we within 0.2 N of the limit?", "abs(force_n - limit_n) <= 0.2"),
     ("Is the force more than two thirds of the limit?", "force_n > 0.667 * limit_n"),
     ("Is the limit at least twice the force?", "limit_n >= 2 * force_n"),
@@ -163,6 +181,14 @@ def test_a_choice_is_calculated_as_it_is_asked(question, truth):
         "How far is the moon from the earth?",
         "Is the depth more than the force?",
         "Which is greater, 2 N or 1 N?",
+        "If the depth doubled, what would the force be?",
+        "If we pressed 1 N harder, how deep would it be?",
+        "If I pressed 2 mm deeper, would the force exceed the limit?",
+        "Is the force more than 5 N per mm?",
+        "Is the truck's weight above the limit?",
+        "What is half the weight of the robot?",
+        "Which is greater, the weight or the mass?",
+        "What percent of the force is one?",
         "",
     ],
 )
