@@ -211,6 +211,4 @@ def _measured(name: str, unit: str) -> tuple[str, str]:
 
 
 def _plain(number: str) -> str:
-    return number_text(
-        float(number.replace("--", ""))
-    )  # less than nothing to the left: to the right
+    return number_text(float(number))

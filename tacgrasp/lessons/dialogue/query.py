@@ -384,6 +384,7 @@ def _meaning(text: str, numbers: Sequence[float], length: Length) -> Meaning:
             return Which(name=rest, is_open=kind == "word", length=length)
         case "check":
             test = _REFERENCE.sub(lambda m: number_text(numbers[int(m[1]) - 1]), rest)
+            test = test.replace("--", "")  # less than nothing to the left is to the right
             is_denied = test.startswith("not ")
             return check_of(test.removeprefix("not "), denied=is_denied, length=length)
         case "calculate":

@@ -28,11 +28,11 @@ _PATTERNS = (
     # multiples
     r"\b(?:[4-9]|\d\d+) times (?:that|this|the|it|as)\b",
     r"\b(?:twice|double|triple|half) the (?:lower|upper|least|most)\b",
-    r"\b(?:twice|doubled?|half|halved|tripled?|three times|two times)(?: of| as \w+ as)?(?: "
+    r"\b(?:twice|doubled?|half|halved|tripled?|\d times)(?: of| as \w+ as)?(?: "
     r"(?:the|our|this|their|its))? "
     r"(?:limit|weight|mass|area|pad|contact|distance|time|friction)\b",
     r"\b(?:limit|weight|mass|area|pad|contact|distance|time|friction)\b.{0,20}\b(?:doubled|halved|tripled|"
-    r"divided by two|twice|half|three times)\b",
+    r"divided by two|twice|half|\d times)\b",
     # sums of a felt and a named number
     rf"{_NUMBER}\s*(?:%|\w+)?\s+(?:more|extra|less|additional|further)\b(?! than)",
     rf"\badd(?:ing|ed)? (?:another |an extra )?{_NUMBER}",

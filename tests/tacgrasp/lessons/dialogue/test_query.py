@@ -97,6 +97,11 @@ def test_what_is_no_query_is_refused(query):
         read_query(query)
 
 
+def test_less_than_nothing_to_the_left_is_to_the_right():
+    asked = read_query("check x < -#1 mm.", (-2.0,))
+    assert (asked.condition, query_of(asked, (2.0,))) == ("x_mm < 2", "check x < #1 mm.")
+
+
 @pytest.mark.parametrize("test", ["depth > 1 N", "colour red", "slips 3 N", "shape bent", "", "x"])
 def test_what_is_no_condition_is_refused(test):
     with pytest.raises(ValueError, match="there is no"):
