@@ -34,7 +34,7 @@ from cltp.sensing.ball_presses import (
 from cltp.sensing.frames import Frame, check_frame
 from cltp.sensing.photometric import GradientNet, colour_change, position_inputs
 from cltp.tactile.sensors import SensorSpec
-from cltp.train.photometric.consensus import UntouchedGel, Pixels, consensus_steps, train_consensus
+from cltp.train.photometric.consensus import GelPixels, Pixels, consensus_steps, train_consensus
 from cltp.train.photometric.places import TURNS, fit_places, light_of
 
 MIN_PRESSES = 5
@@ -109,7 +109,7 @@ def train_gradients(
     if profiles is not None:
         shape = profiles
         presses = fit_places(changes, presses, profiles, background, sensor, step_is_done)
-    gel = UntouchedGel(
+    gel = GelPixels(
         places=torch.from_numpy(position_inputs(sensor)),
         brightness=torch.from_numpy(light_of(background).mean(axis=1).astype(np.float32)),
     )

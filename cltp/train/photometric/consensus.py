@@ -37,7 +37,7 @@ _PENALTY = 1e-6  # of the law's coefficients, over their mean square feature: ag
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class UntouchedGel:
+class GelPixels:
     """What is known of each pixel without a press.
 
     Attributes:
@@ -57,7 +57,7 @@ class Pixels:
         colours: (N, 3), change of colour.
         smooth: (N, 3), the same without noise.
         slopes: (N, 2), mm per mm.
-        index: (N,), where in the ``UntouchedGel``.
+        index: (N,), where in the ``GelPixels``.
     """
 
     colours: Tensor
@@ -72,7 +72,7 @@ def consensus_steps(steps: int) -> int:
 
 
 def train_consensus(
-    pixels: Pixels, gel: UntouchedGel, steps: int, rng: torch.Generator, report: Callable[[], None]
+    pixels: Pixels, gel: GelPixels, steps: int, rng: torch.Generator, report: Callable[[], None]
 ) -> Net:
     """Train the teachers, fit the law, and train the network that learns their average.
 

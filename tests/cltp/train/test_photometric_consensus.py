@@ -7,7 +7,7 @@ import pytest
 import torch
 
 from cltp.train.photometric.consensus import (
-    UntouchedGel,
+    GelPixels,
     Pixels,
     consensus_steps,
     fit_law,
@@ -90,7 +90,7 @@ def test_the_consensus_errs_less_between_the_places_than_a_network_alone() -> No
         train_net(model, inputs, targets, steps, generator, lambda: None)
         alone.append(error(model))
     generator = torch.Generator().manual_seed(0)
-    gel = UntouchedGel(places=inputs[:, 3:], brightness=torch.ones(len(inputs)))
+    gel = GelPixels(places=inputs[:, 3:], brightness=torch.ones(len(inputs)))
     known = Pixels(
         colours=inputs[:, :3],
         smooth=inputs[:, :3],
