@@ -27,6 +27,7 @@ from tacgrasp.lessons.dialogue.conditions import check_of
 from tacgrasp.lessons.dialogue.families.catalogue import understand
 from tacgrasp.lessons.dialogue.families.misspelled import respelled
 from tacgrasp.lessons.dialogue.meaning import (
+    Calculated,
     Check,
     Several,
 )
@@ -75,6 +76,10 @@ FOLLOW_UP_WORDS = 5
 
 ALONE_FROM = 0.5
 """Confidence from which a question that does not begin as a follow-up is none. Our choice."""
+
+CALCULATED_CONFIDENCE = 0.85
+"""Confidence in the terms that were read of a question. Our choice: nearly so many were read
+rightly of those that strangers asked first."""
 
 _FOLLOWS = re.compile(r"(?:and|but|then|why|how come|what about|how about|same)\b", re.I)
 
@@ -145,7 +150,8 @@ def understood_by_grammar(question: str, before: str = "") -> ReadQuestion | Non
     if not query:
         return None
     read = read_query(query, asked.numbers)
-    return None if read is None else _as_one(question, ReadQuestion(query, read, 1.0))
+    sure = CALCULATED_CONFIDENCE if isinstance(read, Calculated) else 1.0
+    return None if read is None else _as_one(question, ReadQuestion(query, read, sure))
 
 
 def _by_other_words(question: str, before: str) -> ReadQuestion | None:

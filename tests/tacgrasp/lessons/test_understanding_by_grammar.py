@@ -21,6 +21,19 @@ class Refusing:
 @pytest.mark.parametrize(
     ("question", "query"),
     [
+        ("What percentage of 2 mm is the depth?", "calculate 100 * depth_mm / 2 in %."),
+        ("If the force doubled, would it exceed the limit?", "calculate 2 * force_n > limit_n."),
+    ],
+)
+def test_what_calculates_is_read_with_some_doubt(question, query):
+    asked = understood(Refusing(), question)
+    assert asked.query == query
+    assert 0.8 < asked.confidence < 1
+
+
+@pytest.mark.parametrize(
+    ("question", "query"),
+    [
         ("Should I squeeze more?", "check force below."),
         ("Is it a strawberry?", "unknown name."),
         ("How warm is it?", "unknown temperature."),
@@ -58,8 +71,6 @@ class Refusing:
         ("Shape and depth, in a sentence.", "word shape; amount depth mm."),
         ("Would it be wrong to say that it is not round?", "check shape sphere."),
         ("Does 2 N exceed what you feel?", "check force < #1 N."),
-        ("What percentage of 2 mm is the depth?", "calculate 100 * depth_mm / 2 in %."),
-        ("If the force doubled, would it exceed the limit?", "calculate 2 * force_n > limit_n."),
         ("forse and dpeth plz", "amount force N; amount depth mm."),
         ("is ther a contcat", "check touched."),
         ("The stem is thin and I worry. Is it deep?", "check depth deep."),
