@@ -36,6 +36,7 @@ _BASE_UNITS = {
     "fraction": "%",
     "area": "mm²",
     "mass": "g",
+    "ratio": "",
     "": "",
 }
 

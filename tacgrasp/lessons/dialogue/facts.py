@@ -125,7 +125,7 @@ def truth_in_words(truth: Expression, unit: str, scene: AskedScene) -> str:
         return "yes" if value else "no"
     if isinstance(value, str):
         return _worded(truth.text, value)
-    return f"{value:.4f} {unit}"
+    return f"{value:.4f} {unit}".rstrip()
 
 
 def _worded(name: str, word: str) -> str:

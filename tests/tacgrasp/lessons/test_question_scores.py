@@ -77,3 +77,24 @@ def test_scenes_take_turns():
     asked = ask_all(ROWS, SCENES, 2)
     assert len(asked) == 10
     assert [one.contact for one in asked[:4]] == [0, 1, 2, 0]
+
+
+@pytest.mark.parametrize(
+    ("kind", "truth"),
+    [
+        ("number", "force_n / limit_n"),
+        ("number", "100 * force_n / limit_n"),
+        ("number", "100 * depth_mm / 2"),
+        ("number", "force_n * 1000 / 9.81"),
+        ("number", "area_percent / 100"),
+        ("number", "force_n / depth_mm"),
+        ("choice", "'upper' if y_mm > 0 else 'lower'"),
+        ("choice", "'inside' if band_low_n <= force_n <= band_high_n else 'above'"),
+        ("text", "'tighten' if force_n < band_low_n else 'hold'; force_n"),
+    ],
+)
+def test_the_truth_in_words_is_right(kind, truth):
+    asked = ask_all([row("any", "What is it?", kind, truth)], SCENES, 3)
+    contestants = baselines(asked)
+    assert figures(answer_all(asked, contestants["truth in words"])).right == 1
+    assert figures(answer_all(asked, contestants["most frequent"])).right is not None
