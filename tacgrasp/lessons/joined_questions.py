@@ -72,8 +72,8 @@ _NOT_EITHER = re.compile(r"\b(?:and|not|neither|or not)\b|n['’]t\b", re.I)
 
 REQUEST = re.compile(
     r"^(?:(?:could|can|would|will) you )?(?:please |kindly )?(?:give|tell|note|state|report|name|"
-    r"list|enumerate|specify|show|measure|read|write|send|log|record|quote|describe|summari[sz]e)"
-    r"(?: down| out| off)?(?: (?:me|us))?(?: for the \w+)?[ :,]+|"
+    r"list|enumerate|specify|show|measure|read|write|send|log|record|quote|describe|"
+    r"summari[sz]e)(?: down| out| off)?(?: (?:me|us))?(?: for the \w+)?[ :,]+|"
     r"^(?:(?:could|can|may) (?:i|we) (?:have|get|see)|(?:i|we) (?:need|want|would like)|let "
     r"me have) ",
     re.I,
@@ -81,27 +81,26 @@ REQUEST = re.compile(
 """What may stand before a list of things that are asked for."""
 
 _COUNTED = re.compile(
-    r"^(?:(?:the|these|just|only) )?(?:\d|two|three|four|five|several|a few) (?:things|items|"
-    r"figures|values|"
-    r"numbers|readings|words|answers|facts|entries)\b[^:,]{0,25}(?:, please)?[:,] *|"
-    r"^(?:(?:give|tell|send) (?:us|me) )?(?:the lot|all of it|everything): *|^(?:quick |"
+    r"^(?:(?:the|these|just|only) )?(?:\d|two|three|four|five|several|a few) "
+    r"(?:things|items|figures|values|numbers|readings|words|answers|facts|"
+    r"entries)\b[^:,]{0,25}(?:, please)?[:,] *|^(?:(?:give|tell|send) (?:us|me) )?(?:the lot|"
+    r"all of it|everything): *|^(?:quick |"
     r"short |brief |full )?(?:status|summary|report)(?: please)?: *",
     re.I,
 )
 """'Three items for the log, please: ...'"""
 
 _AT_LENGTH = re.compile(
-    r"^in (?:one|a) (?:single )?(?:sentence|word)(?: each| for [\w ]{2,20})?[,:] |,? (?:all "
-    r")?in (?:one|a) "
+    r"^in (?:one|a) (?:single )?(?:sentence|word)(?: each| for [\w ]{2,20})?[,:] |"
+    r",? (?:all )?in (?:one|a) "
     r"(?:single |short |full |complete )?(?:sentence|word|line)(?: each)?(?:[.?!]*$|, )",
     re.I,
 )
 """How long an answer is to be; that to several questions is as long as it must be."""
 
 _LISTED = re.compile(
-    r",? (?:(?:please|both|all|all three|each)(?: (?:figures|numbers|values|of (?:them|"
-    r"these)))?|nothing else|go|side by side|in one go|at once|(?:and )?keep it (?:short|"
-    r"brief)|be brief|"
+    r",? (?:(?:please|both|all|all three|each)(?: (?:figures|numbers|values|of (?:them|these)))?|"
+    r"nothing else|go|side by side|in one go|at once|(?:and )?keep it (?:short|brief)|be brief|"
     r"briefly|in that order|"
     r"of what (?:you|we) feel|for (?:my|our|the) \w+)(?=[.?!,]*$)",
     re.I,
@@ -109,14 +108,12 @@ _LISTED = re.compile(
 """What may stand behind a list."""
 
 _BOTH_ENDS = re.compile(
-    r"\b(?:(?:the )?(?:two |both )?(?:ends|edges|bounds|limits) of (?:the |our )?(?:\w+ "
-    r")?(?:band|window|range)|"
-    r"(?:the |our )?(?:\w+ )?(?:band|window|range)(?:,|:| -)? (?:its )?(?:low|lower|bottom|"
-    r"lower end)(?: end)? and "
-    r"(?:its )?(?:high|upper|top|upper end)(?: end)?|"
-    r"from (?:what|which|how many|how much)(?: \w+)? to (?:what|which|how many|how much)(?: "
-    r"\w+)? (?:does|do|is) "
-    r"(?:the |our )?(?:\w+ )?(?:band|window|range)(?: (?:go|run|reach|extend))?|"
+    r"\b(?:(?:the )?(?:two |both )?(?:ends|edges|bounds|limits) of "
+    r"(?:the |our )?(?:\w+ )?(?:band|window|range)|(?:the |our )?(?:\w+ )?(?:band|window|"
+    r"range)(?:,|:| -)? (?:its )?(?:low|lower|bottom|lower end)(?: end)? and "
+    r"(?:its )?(?:high|upper|top|upper end)(?: end)?|from "
+    r"(?:what|which|how many|how much)(?: \w+)? to (?:what|which|how many|how much)(?: \w+)? "
+    r"(?:does|do|is) (?:the |our )?(?:\w+ )?(?:band|window|range)(?: (?:go|run|reach|extend))?|"
     r"(?:the |our )?(?:\w+ )?(?:band|window|range)(?: we (?:were|are) aiming for)?, from and to)\b",
     re.I,
 )
@@ -127,14 +124,15 @@ _HOW_MUCH = re.compile(
 
 _INDIRECT = (
     (
-        r"\b(?:with |under |at )?(?:what|which) (shape|texture|surface|force|depth|area|position)"
-        r"(?: (?:you|we) (?:feel|sense|measure|see)| it (?:is|has)| there is)?(?=,|;|[?.!]*$|"
+        r"\b(?:with |under |at )?(?:what|which) (shape|texture|surface|force|depth|area|"
+        r"position)(?: (?:you|we) (?:feel|sense|measure|see)| it (?:is|has)| there is)?(?=,|;|"
+        r"[?.!]*$|"
         r" and\b| in \w+)",
         r"\1",
     ),
     (
-        r"\b(force|limit|band|depth|area|mass) (?:that |which )?(?:we|you|i) (?:have|must|"
-        r"should|can|feel|keep|are)"
+        r"\b(force|limit|band|depth|area|mass) (?:that |which )?(?:we|you|i) "
+        r"(?:have|must|should|can|feel|keep|are)"
         r"(?: \w+){0,2}(?=,|;|[?.!]*$| and\b)",
         r"\1",
     ),

@@ -28,15 +28,15 @@ _WEIGHS = re.compile(
     r"(?:how much|what) (?:does|do|would|will) (?:(?:the|that|this) )?[a-z]+ weigh"
 )
 _MASS_OF = re.compile(
-    r"(?:what|which|how much|how large a) (?:mass|weight)(?: would| does)? (?:weighs?|be|"
-    r"is)(?: (?:exactly|just))? "
-    r"(?:as much as|the same as|equal to) (?P<a>.+?)(?: here on earth| on earth| take g .*)?"
+    r"(?:what|which|how much|how large a) (?:mass|weight)(?: would| does)? "
+    r"(?:weighs?|be|is)(?: (?:exactly|just))? (?:as much as|the same as|equal to) "
+    r"(?P<a>.+?)(?: here on earth| on earth| take g .*)?"
 )
 _COUNT = re.compile(
     r"(?:(?:if|given) .+ )?(?:what|how much)(?: (?:mass|weight))? (?:would|do|does|will) "
-    r"(?P<n>#\d+) (?:of (?:them|these|"
-    r"those|it)|such \w+|(?:of )?(?:these |the )?(?:objects|things|pieces|items|berries))"
-    r"(?: (?:have|weigh|together|be|come to|amount to))+"
+    r"(?P<n>#\d+) (?:of (?:them|these|those|it)|such \w+|"
+    r"(?:of )?(?:these |the )?(?:objects|things|pieces|items|berries))(?: "
+    r"(?:have|weigh|together|be|come to|amount to))+"
 )
 
 
@@ -45,11 +45,9 @@ _AT = re.compile(
 )
 _ALONE = re.compile(
     r"(?:(?:what|how (?:much|large|big|great)|(?:what|which) (?:force|depth|mass|area)) "
-    r"(?:is|are|would be|makes?) )?(?P<a>.+?)"
-    r"(?: (?:(?:what|how much) is (?:it|that|the .+)|(?:comes?|amounts?) to (?:what|how "
-    r"much)|(?:is|makes|"
-    r"equals) "
-    r"(?:what|how much)|under earth gravity.*|given the (?:stated |told )?mass))*"
+    r"(?:is|are|would be|makes?) )?(?P<a>.+?)(?: (?:(?:what|how much) is (?:it|that|the .+)|"
+    r"(?:comes?|amounts?) to (?:what|how much)|(?:is|makes|equals) (?:what|how much)|"
+    r"under earth gravity.*|given the (?:stated |told )?mass))*"
 )
 
 

@@ -25,11 +25,9 @@ _USUAL: Mapping[str, tuple[str, str]] = {
 
 _ITS = re.compile(r"\bits\b", re.I)
 _PRONOUN = re.compile(
-    r"(?:(?:we|us|me|it|this|that|i|you|they|these|those|he|she|the (?:robot|gripper|"
-    r"contact|object|"
-    r"thing|result|reading|value|touch|fingers?)|what you feel|what there is)(?: (?:now|"
-    r"pressing|gripping|"
-    r"here))?)"
+    r"(?:(?:we|us|me|it|this|that|i|you|they|these|those|he|she|"
+    r"the (?:robot|gripper|contact|object|thing|result|reading|value|touch|fingers?)|what you feel|"
+    r"what there is)(?: (?:now|pressing|gripping|here))?)"
 )
 _PEOPLE = re.compile(r"(?:we|us|me|i|you|they)\b")
 _AS_IT_IS = re.compile(r"\b(?:present|presently|current|currently|now|old)\b")
@@ -37,12 +35,10 @@ _GRAVITY = re.compile(
     r"^(?:with|using|at|for|taking) (?:a |the )?(?:g |gravity )?(?:of )?#\d+ m\b \S+ "
 )
 _LEADING = re.compile(
-    r"^(?:(?:please|kindly|express|tell me|give me|state|say|report|compute|calculate|work "
-    r"out|determine|"
-    r"now|well|ok|then|and|so|hmm+|um+|uh+|for (?:my|the|our|your) \w+|roughly|approximately|"
-    r"exactly|(?:i |we )?(?:want|need|would "
-    r"like) to know|"
-    r"let me know|i ask|(?:can|could|would|will) you (?:tell me|say|work out|calculate)) )+"
+    r"^(?:(?:please|kindly|express|tell me|give me|state|say|report|compute|calculate|work out|"
+    r"determine|now|well|ok|then|and|so|hmm+|um+|uh+|for (?:my|the|our|your) \w+|roughly|"
+    r"approximately|exactly|(?:i |we )?(?:want|need|would like) to know|let me know|i ask|"
+    r"(?:can|could|would|will) you (?:tell me|say|work out|calculate)) )+"
 )
 _IN_UNIT = re.compile(
     rf"(?: (?:measured|expressed|given|said|stated))? (?:in|as) (?:plain |whole )?({UNIT})(?= |$)"
@@ -52,13 +48,13 @@ _MANY = re.compile(
     rf"({UNIT})\b(?! of\b)"
 )
 _AS_RATIO = re.compile(
-    r"(?: (?:expressed )?)?as (?:a )?(?:plain |simple |decimal |bare )?(?:fraction|number|ratio)"
-    r"(?: between #\d+ and (?:one|#\d+))?(?= |$) ?"
+    r"(?: (?:expressed )?)?as (?:a )?(?:plain |simple |decimal |bare )?(?:fraction|number|"
+    r"ratio)(?: between #\d+ and (?:one|#\d+))?(?= |$) ?"
 )
 _AS_PERCENTAGE = re.compile(r" (?:in percent|as (?:a )?percentages?)(?= |$)")
 _ANSWERED = re.compile(
-    r" (?:answer|say|reply|respond|just say)(?: with| only)? [a-z]+(?: [a-z]+)?(?: or "
-    r"[a-z]+(?: [a-z]+)?)+$"
+    r" (?:answer|say|reply|respond|just say)(?: with| only)? "
+    r"[a-z]+(?: [a-z]+)?(?: or [a-z]+(?: [a-z]+)?)+$"
 )
 _TAKING_G = re.compile(
     r" (?:use|take|taking|with|using) (?:g )?(?:as |of )?#\d+(?: m \S+)?(?: (?:for|as) g)?$"
@@ -68,8 +64,8 @@ _ONE_MORE = re.compile(
     rf"({UNIT})\b"
 )
 _PER_UNIT = re.compile(
-    rf"(?: (?:in|how (?:many|much)) | )(?P<one>{UNIT}) per (?P<each>{UNIT})(?: (?:is|are|does|do) "
-    rf"(?:that|it|this)(?: \w+)*)?$"
+    rf"(?: (?:in|how (?:many|much)) | )(?P<one>{UNIT}) per "
+    rf"(?P<each>{UNIT})(?: (?:is|are|does|do) (?:that|it|this)(?: \w+)*)?$"
 )
 _EXTRA_ONE = re.compile(rf"\bone extra (?={UNIT}\b)|\banother (?=half (?:an? )?(?:{UNIT})\b)")
 _FULL_ONE = re.compile(rf"\b(?:one|an?) (?:full|whole|single) (?={UNIT}\b)")
@@ -83,28 +79,29 @@ _WERE_TO = re.compile(r"^(?:were|should|if) (i|we|you|it|the \w+) (?:were )?to "
 _KEEPING_SIGNS = re.compile(r",? (?:keeping|with|counting) (?:the|their) signs?\b")
 _AT_ONCE = re.compile(r" (?:at the same time|simultaneously|together|at once)$")
 _GIVEN_MASS = re.compile(
-    r"^(?:with|given|by|from|going by) the (?:mass|weight)(?: (?:that )?(?:i|we|you)(?: "
-    r"\w+){1,3}?)? (?=what|how)|"
+    r"^(?:with|given|by|from|going by) the (?:mass|weight)(?: "
+    r"(?:that )?(?:i|we|you)(?: \w+){1,3}?)? (?=what|how)|"
     r" (?:going by|given|from|by) the (?:mass|weight) (?:that )?(?:i|we|you|it)\b.*$"
 )
 _REMARK = re.compile(r" (?:i|we) need (?:it|this|that|them) .*$| whichever (?:is|one is) \w+$")
 _AMOUNT_OF = re.compile(
-    r"^(?:by )?(?:what|which) (?:amount|distance)\b|^what(?: is| are)?(?= (?:still "
-    r")?(?:missing|lacking|left)\b)"
+    r"^(?:by )?(?:what|which) (?:amount|distance)\b|^what(?: is|"
+    r" are)?(?= (?:still )?(?:missing|lacking|left)\b)"
 )
 _OR_ZERO = re.compile(
     r" (?:or )?(?:(?:say|give|answer|report|put|use|write) )?(?:or )?(#\d+) (?:if|when|where) .+$"
 )
 _SIGNED = re.compile(
     r" (?:(?:use|give|say|put|with|write) )?(?:an? |it )?(?:minus|negative|plus)(?: sign)? "
-    r"(?:if|for|when|meaning|means) .+$| an? (?:minus|negative) (?:figure|value|number|sign)"
-    r"(?: would| will)? means? .+$| with (?:a |the )?sign$"
+    r"(?:if|for|when|meaning|means) .+$| an? (?:minus|negative) "
+    r"(?:figure|value|number|sign)(?: would| will)? means? .+$| with (?:a |the )?sign$"
 )
 _UNSIGNED = re.compile(
-    r"^(?:ignoring|without|regardless of|disregarding|leaving out|dropping) (?:the |its )?"
-    r"(?:sign|direction) | (?:ignoring|without|regardless of|disregarding|no matter) (?:the |its )?"
-    r"(?:sign|direction|which(?: is \w+)?|whether .+)$| (?:and )?without (?:a|the|any) sign$|"
-    r" never mind which(?: way)?$| either way$| on either side$"
+    r"^(?:ignoring|without|regardless of|disregarding|leaving out|dropping) "
+    r"(?:the |its )?(?:sign|direction) | (?:ignoring|without|regardless of|disregarding|no matter) "
+    r"(?:the |its )?(?:sign|direction|which(?: is \w+)?|whether .+)$|"
+    r" (?:and )?without (?:a|the|any) sign$| never mind which(?: way)?$| either way$|"
+    r" on either side$"
 )
 
 

@@ -55,49 +55,45 @@ _CHANGES = tuple(
     )
 )
 _TO_TIMES = re.compile(
-    rf"(?P<a>.+?) (?:{_UP}|{_DOWN}) to (?P<n>#\d+) times (?:the )?(?:\w+ )?(?:size|value|"
-    rf"amount|depth|self)"
+    rf"(?P<a>.+?) (?:{_UP}|{_DOWN}) to (?P<n>#\d+) times "
+    rf"(?:the )?(?:\w+ )?(?:size|value|amount|depth|self)"
 )
 _PRESSED = re.compile(
-    rf"(?:{_WHO}|it|the (?:fingers|gripper|robot|hand)) (?:push|press|squeez|gripp?|pinch|"
-    rf"clamp|put on|add)(?:ed|e|es|s)?"
+    rf"(?:{_WHO}|it|the (?:fingers|gripper|robot|hand)) "
+    rf"(?:push|press|squeez|gripp?|pinch|clamp|put on|add)(?:ed|e|es|s)?"
     r"(?: with)? (?P<b>#.+?) (?:(?P<more>harder|more|firmer|stronger|deeper|extra)|"
-    r"(?P<less>softer|less|"
-    r"lighter|gentler|shallower))"
+    r"(?P<less>softer|less|lighter|gentler|shallower))"
 )
 _EASED = re.compile(
-    rf"(?:{_WHO} )?(?:(?:backing|easing) off|releasing|letting go of|let go of|released?|"
-    rf"gave up|back(?:ed)? off|ease(?:d)?(?: off)?|took off|"
-    rf"took away|drop(?:ped)?)"
+    rf"(?:{_WHO} )?(?:(?:backing|easing) off|releasing|letting go of|let go of|released?|gave up|"
+    rf"back(?:ed)? off|ease(?:d)?(?: off)?|took off|took away|drop(?:ped)?)"
     r"(?: by)? (?P<b>.+)"
 )
 _ON_TOP = re.compile(
-    r"(?:another )?(?P<b>#\d+ \w+)(?: more)? (?:came|comes|were put|was put|were added|was "
-    r"added)(?: on top)?"
+    r"(?:another )?(?P<b>#\d+ \w+)(?: more)? (?:came|comes|were put|was put|were added|"
+    r"was added)(?: on top)?"
 )
 _GONE = re.compile(
-    r"(?P<share>.+) of (?P<a>.+?) (?:vanished|vanishes|was lost|were lost|disappeared|went "
-    r"away|were gone|was gone|"
-    r"is lost|fell away)"
+    r"(?P<share>.+) of (?P<a>.+?) (?:vanished|vanishes|was lost|were lost|disappeared|went away|"
+    r"were gone|was gone|is lost|fell away)"
 )
 _CHANGE_OF = re.compile(
-    r"(?:an? )?(?P<b>#\d+ \w+) (?:(?P<up>increase|rise|gain|growth)|decrease|drop|fall|"
-    r"reduction|cut) (?:of|in) (?P<a>.+)"
+    r"(?:an? )?(?P<b>#\d+ \w+) (?:(?P<up>increase|rise|gain|growth)|decrease|drop|fall|reduction|"
+    r"cut) (?:of|in) (?P<a>.+)"
 )
 _MOVED = re.compile(
-    r"(?:it|the (?:object|contact|thing))(?: (?:was|were|is|had|has|been))* (?:shifted|moved|"
-    r"slid|pushed|moves|slides|shifts)"
-    r"(?: by)? (?P<b>#\d+ \w+) (?:to the )?(?P<side>left|right|up|down)(?:wards?)?"
+    r"(?:it|the (?:object|contact|thing))(?: (?:was|were|is|had|has|been))* "
+    r"(?:shifted|moved|slid|pushed|moves|slides|shifts)(?: by)? (?P<b>#\d+ \w+) "
+    r"(?:to the )?(?P<side>left|right|up|down)(?:wards?)?"
 )
 _LOADED = re.compile(
-    rf"{_WHO} (?:add(?:ed)?|put|stuck|stick|glued?|attach(?:ed)?|placed?|hung) (?:an? "
-    rf")?(?P<b>#\d+ \w+)"
+    rf"{_WHO} (?:add(?:ed)?|put|stuck|stick|glued?|attach(?:ed)?|placed?|hung) "
+    rf"(?:an? )?(?P<b>#\d+ \w+)"
     r"(?: \w+)? (?:to|onto|on) (?:the )?\w+"
 )
 _SHARED = re.compile(
     r"(?P<n>#\d+) (?:jaws|fingers|pads|grippers|people|robots|of them|parts)(?: \w+)? "
-    r"(?:share|carry|split|divide)d? "
-    r"(?P<a>.+?)(?: (?:equally|evenly|between them|alike))*"
+    r"(?:share|carry|split|divide)d? (?P<a>.+?)(?: (?:equally|evenly|between them|alike))*"
 )
 
 

@@ -30,16 +30,16 @@ _COMPARED = tuple(
     for sign, said in (
         (
             ">=",
-            r"reach(?:es|ed)?|comes? up to|at least(?: as \w+ as)?|no less than|not less "
-            r"than|not below|not "
+            r"reach(?:es|ed)?|comes? up to|at least(?: as \w+ as)?|no less than|not less than|"
+            r"not below|not "
             r"under|no smaller than",
         ),
         ("<=", r"at most|no more than|not more than|not above|not over|no larger than"),
         (
             ">",
-            r"(?:more|greater|larger|higher|bigger|heavier|deeper|stronger|further|farther)"
-            r"(?: in size)? than|above|over|"
-            r"exceed(?:s|ing)?|beyond|past|surpass(?:es|ing)?|violates?|breaks?|tops?|in excess of|"
+            r"(?:more|greater|larger|higher|bigger|heavier|deeper|stronger|further|"
+            r"farther)(?: in size)? than|above|over|exceed(?:s|ing)?|beyond|past|"
+            r"surpass(?:es|ing)?|violates?|breaks?|tops?|in excess of|"
             r"outweighs?",
         ),
         (
@@ -50,8 +50,8 @@ _COMPARED = tuple(
     )
 )
 _NEARER = re.compile(
-    rf"(?P<a>.+?)(?: {_ADVERB})*(?: {_BE})? (?:closer|nearer)(?: to)? (?P<b>.+) than (?:to |"
-    rf"it is to )?(?P<c>.+)"
+    rf"(?P<a>.+?)(?: {_ADVERB})*(?: {_BE})? (?:closer|nearer)(?: to)? (?P<b>.+) than "
+    rf"(?:to |it is to )?(?P<c>.+)"
 )
 _PUSHED = re.compile(
     r"(?:we|you|i|it|the gripper)(?: are| is)? (?:push|press|squeez|gripp?)(?:ing|es|e|"
@@ -74,8 +74,8 @@ _LIMIT = re.compile(
     r"obeyed|met|okay|safe)|exceeded|violated|broken|passed|crossed|overstepped)"
 )
 _SIDE_OF = re.compile(
-    rf"(?:it|the object|the contact)(?: {_ADVERB})*(?: be)? (?:to the )?(?P<side>left|right|"
-    rf"above|below)(?: of)? "
+    rf"(?:it|the object|the contact)(?: {_ADVERB})*(?: be)? "
+    rf"(?:to the )?(?P<side>left|right|above|below)(?: of)? "
     r"(?:the )?(?:\w+ )?(?:middle|center(?: line)?|midline|line)"
 )
 _WITHIN = re.compile(
@@ -89,30 +89,30 @@ _IN_BAND = re.compile(
     r"(?:the |our |this )?(?:\w+ ){0,2}(?:band|range|window|goal|target)"
 )
 _ANY = re.compile(
-    r"(?:either one|at least one|one of (?:them|these|the two)|any)(?: of (?:these|them|the two))?"
-    r"(?: (?:is|are|holds?|true|satisfied|met|the case|fulfilled|of the following))*"
+    r"(?:either one|at least one|one of (?:them|these|the two)|"
+    r"any)(?: of (?:these|them|the two))?(?: (?:is|are|holds?|true|satisfied|met|the case|"
+    r"fulfilled|of the following))*"
 )
 _ASKS_ANY = re.compile(rf"^(?:{_VERB} )?{_ANY.pattern} | {_ANY.pattern}$")
 _ONE_OF = re.compile(
-    rf"(?:{_VERB} )?(?:at least one|any|either|one) of (?=.+? and .+? (?:{_VERB} )?(?:more|"
-    rf"less|above|over|below|under|"
+    rf"(?:{_VERB} )?(?:at least one|any|either|one) of "
+    rf"(?=.+? and .+? (?:{_VERB} )?(?:more|less|above|over|below|under|"
     r"greater|larger|smaller|exceed))"
 )
 _JOINT = re.compile(r" (and|or) ")
 _BARE = re.compile(
-    r"(?:pressed|pushed|squeezed|held|gripped|touched) with (?=(?:more|less|at least|at most|"
-    r"over|under)\b)|"
+    r"(?:pressed|pushed|squeezed|held|gripped|touched) with "
+    r"(?=(?:more|less|at least|at most|over|under)\b)|"
     r"(?=(?:more|less|greater|deeper|shallower|heavier|lighter|stronger) than )"
 )
 _NEITHER = re.compile(
-    r"(?:it (?:true|correct|right|the case|so) that )?(?:(?P<s>.+?) (?:is )?)?neither "
-    r"(?P<a>.+) nor (?P<b>.+)"
+    r"(?:it (?:true|correct|right|the case|so) that )?(?:(?P<s>.+?) (?:is )?)?neither (?P<a>.+) "
+    r"nor (?P<b>.+)"
 )
 _RESERVE = re.compile(
-    r"(?:we|you|i|there|it) (?:(?:still|have|got|is) )*(?:(?P<more>more|over)|(?P<less>less|"
-    r"under)) "
-    r"than (?P<b>.+?) (?:in reserve|left|unused|to spare|in hand|headroom|free|remaining)"
-    r"(?: (?:before|to|until|below|under) (?:the )?limit)?"
+    r"(?:we|you|i|there|it) (?:(?:still|have|got|is) )*(?:(?P<more>more|over)|"
+    r"(?P<less>less|under)) than (?P<b>.+?) (?:in reserve|left|unused|to spare|in hand|headroom|"
+    r"free|remaining)(?: (?:before|to|until|below|under) (?:the )?limit)?"
 )
 
 

@@ -21,32 +21,31 @@ _GREATER = r"(?:greater|larger|bigger|higher|more|heavier|stronger|longer|furthe
 _LESS = r"(?:smaller|less|lower|lighter|weaker|shorter|nearer|closer|least)"
 _FROM_ZERO = r"(?: (?:in size|in magnitude|(?:from|to) (?:#\d+|the (?:middle|center))(?: here)?))?"
 _WHICH = re.compile(
-    rf"(?:which|what)(?: (?:one|figure|value|number|quantity|thing|offset|of (?:the|these) "
-    rf"two|of these|"
-    rf"is|are|from|the|(?:middle|center)))* (?:the )?(?:(?P<more>{_GREATER})|(?P<less>{_LESS}))"
-    rf"(?P<zero>{_FROM_ZERO})(?: one)?(?: of (?:the |these |those )?(?:#\d+|two|both))? "
-    rf"(?P<a>.+) or (?P<b>.+)"
+    rf"(?:which|what)(?: (?:one|figure|value|number|quantity|thing|offset|of (?:the|these) two|"
+    rf"of these|is|are|from|the|(?:middle|center)))* (?:the )?(?:(?P<more>{_GREATER})|"
+    rf"(?P<less>{_LESS}))(?P<zero>{_FROM_ZERO})(?: one)?(?: of "
+    rf"(?:the |these |those )?(?:#\d+|two|both))? (?P<a>.+) or (?P<b>.+)"
 )
 _NEARER = re.compile(
     r"(?:(?:is|are|does|do|was) )?(?P<a>.+?)(?: (?:sit|lie|lying|stand|be|stay|sitting))? "
     r"(?:nearer|closer)(?: to)? (?P<b>.+) or(?: (?:closer|nearer))?(?: to)? (?P<c>.+)"
 )
 _WHICH_NEARER = re.compile(
-    r"(?:which|what)(?: of (?:these|them|the two))? (?:is|are|does|do) (?P<a>.+?) (?:nearer|"
-    r"closer)(?: to)? "
-    r"(?P<b>.+) or(?: to)? (?P<c>.+)"
+    r"(?:which|what)(?: of (?:these|them|the two))? (?:is|are|does|do) (?P<a>.+?) "
+    r"(?:nearer|closer)(?: to)? (?P<b>.+) or(?: to)? (?P<c>.+)"
 )
 _WHICH_END = re.compile(
     r"(?:to )?(?:which|what) (?:edge|end|side|bound|limit|border) of (?:the |our )?(?P<band>.+?) "
-    r"(?:is|are|does|do) (?P<a>.+?)(?: (?:sit|lie))? (?:nearer|closer)(?: to)?"
-    r"(?: (?:the )?(?P<b>\w+)(?: (?:one|end|edge))? or (?:the )?(?P<c>\w+)(?: (?:one|end|edge))?)?"
+    r"(?:is|are|does|do) (?P<a>.+?)(?: (?:sit|lie))? (?:nearer|"
+    r"closer)(?: to)?(?: (?:the )?(?P<b>\w+)(?: (?:one|end|edge))? or "
+    r"(?:the )?(?P<c>\w+)(?: (?:one|end|edge))?)?"
 )
 _OF_BOTH_ENDS = re.compile(
-    r"(?:which|what) (?:of the (?:#\d+|two) )?(?:(?:edge|end|side|bound)s? of (?:the |our "
-    r")?(?P<band>.+?)|(?P<of>\w+) (?:edge|end)s?) "
-    r"(?:is|are) (?:(?:nearer|closer)(?: to)? (?P<a>.+?)|(?P<also>.+?) (?:nearer|closer)(?: to)?) "
-    r"(?:the )?(?P<b>lower|upper|bottom|top)(?: one)? or (?:the )?(?P<c>lower|upper|bottom|"
-    r"top)(?: one)?"
+    r"(?:which|what) (?:of the (?:#\d+|two) )?(?:(?:edge|end|side|bound)s? of "
+    r"(?:the |our )?(?P<band>.+?)|(?P<of>\w+) (?:edge|end)s?) (?:is|are) "
+    r"(?:(?:nearer|closer)(?: to)? (?P<a>.+?)|(?P<also>.+?) (?:nearer|closer)(?: to)?) "
+    r"(?:the )?(?P<b>lower|upper|bottom|top)(?: one)? or "
+    r"(?:the )?(?P<c>lower|upper|bottom|top)(?: one)?"
 )
 _COVERED = re.compile(
     r"is (?:more|most|the (?:larger|greater|bigger) part) of (?:the )?pad (?P<one>\w+) or "
@@ -59,15 +58,15 @@ _OVER_UNDER = re.compile(
     rf"(?:(?:is|are) )?(?P<a>.*?) ?(?P<one>{_SIDE}) or (?P<two>{_SIDE})(?: than)? (?P<b>.+)"
 )
 _WHICH_SIDE = re.compile(
-    rf"(?:on )?which side of (?P<b>.+?)(?: (?:mark|line|threshold))? (?:is|are|does|do) (?P<a>.+?)"
-    rf"(?: (?:on|lie|lie on))? (?P<one>{_SIDE}) or (?P<two>{_SIDE})"
+    rf"(?:on )?which side of (?P<b>.+?)(?: (?:mark|line|threshold))? (?:is|are|does|do) "
+    rf"(?P<a>.+?)(?: (?:on|lie|lie on))? (?P<one>{_SIDE}) or (?P<two>{_SIDE})"
 )
 _TIGHTEN = (
     r"(?:tighten|squeeze (?:harder|more)|grip (?:harder|more)|press (?:harder|more)|increase|add)"
 )
 _LOOSEN = (
-    r"(?:loosen|ease(?: off)?|relax|decrease|reduce|squeeze (?:less|softer)|let go a (?:bit|"
-    r"little))"
+    r"(?:loosen|ease(?: off)?|relax|decrease|reduce|squeeze (?:less|softer)|"
+    r"let go a (?:bit|little))"
 )
 _HOLD = r"(?:hold(?: still| on)?|keep(?: it)?|stay|leave it|do nothing|wait|stop)"
 _STEP = re.compile(
@@ -78,15 +77,14 @@ _ANOTHER = re.compile(
     r"\b(?:and|then) (?:why|what|how|which|where|as the reason|quote|tell|give)\b"
 )
 _BACK = re.compile(
-    r"(?:(?:which|what) (?:way|direction|side)|where)(?: to)?\b.*?\b(?:shove|push|nudge|"
-    r"slide|shift) "
-    r"(?:it|the object|this|that)\b.*\b(?:middle|center|centered)(?: left or right| right or left)?"
+    r"(?:(?:which|what) (?:way|direction|side)|where)(?: to)?\b.*?\b(?:shove|push|nudge|slide|"
+    r"shift) (?:it|the object|this|that)\b.*\b(?:middle|center|centered)(?: left or right|"
+    r" right or left)?"
 )
 _UPPER, _LOWER = r"(?:upper|top|above|up|higher)", r"(?:lower|bottom|below|down|under)"
 _HALVES = re.compile(
     rf"(?=.*\b(?P<up>{_UPPER})\b)(?=.*\b(?P<down>{_LOWER})\b).*\b(?:{_UPPER}|{_LOWER}) "
-    rf"(?:half |part |side |one )?or "
-    rf"(?:is it |the |in the |more )*(?:{_UPPER}|{_LOWER})\b.*"
+    rf"(?:half |part |side |one )?or (?:is it |the |in the |more )*(?:{_UPPER}|{_LOWER})\b.*"
 )
 _ASKS_WHERE = re.compile(r"(?:is|are|does|do|would|which|what|where|in which|on which|contact)\b")
 _PLACED = re.compile(r"\b(?:half|side|part|where|contact|middle|center|pad|thing|gel)\b")

@@ -18,30 +18,30 @@ from tacgrasp.lessons.dialogue.calculations.terms import Term
 
 _APART = r"(?:away|apart|off)? ?from|off|differs? from|deviates? from"
 _GET = (
-    r"(?:(?: and)?(?: then)? (?:how much|what)(?: .+)?|,? (?:and )?(?:give|tell|show|state|"
-    r"say)(?: .+)?)?"
+    r"(?:(?: and)?(?: then)? (?:how much|what)(?: .+)?|"
+    r",? (?:and )?(?:give|tell|show|state|say)(?: .+)?)?"
 )
 _MISSING = re.compile(
     r"how much(?: more| further)?(?: (?:is|are|do we|does it|would it))?(?: still)? "
     r"(?:missing|lacking|left|needed|lack|to go|remain(?:s|ing)?) "
-    r"(?:until|till|to|before|up to|for|from) (?:(?P<a>.+?) (?:reaches|reach|gets? to|hits?|is at|"
-    r"touches|arrives at|measures?d?|was|were at) )?(?:reach(?:ing)? )?(?P<b>.+)"
+    r"(?:until|till|to|before|up to|for|from) (?:(?P<a>.+?) "
+    r"(?:reaches|reach|gets? to|hits?|is at|touches|arrives at|measures?d?|was|were at) "
+    r")?(?:reach(?:ing)? )?(?P<b>.+)"
 )
 _FURTHER = re.compile(
-    r"how (?:much|far)(?: (?:more|further|deeper|harder|force|of [a-z]+))* (?:(?:i|we|you|it) "
-    r")?(?:would|must|does|do|can|"
-    r"could|may|should|will|has|have|need) .+? to (?:reach|get to|arrive at|hit|be at|come "
-    r"to|get up to) (?P<b>.+)"
+    r"how (?:much|far)(?: (?:more|further|deeper|harder|force|of [a-z]+))* "
+    r"(?:(?:i|we|you|it) )?(?:would|must|does|do|can|could|may|should|will|has|have|need) .+? to "
+    r"(?:reach|get to|arrive at|hit|be at|come to|get up to) (?P<b>.+)"
 )
 _UNTIL = re.compile(
     r"how much(?: (?:more|further|deeper|is there|do we have|have we))*(?: (?:can|could|may|might) "
-    r"(?:we|you|i|it) \w+)? "
-    r"(?:until|till|to|before|up to) (?:(?:we|you|it|i|the \w+) (?:reach|hit|are at|get to|reaches|"
-    r"reached|hits|measures?d?|was) )?(?P<b>.+)"
+    r"(?:we|you|i|it) \w+)? (?:until|till|to|before|up to) "
+    r"(?:(?:we|you|it|i|the \w+) (?:reach|hit|are at|get to|reaches|reached|hits|measures?d?|was) "
+    r")?(?P<b>.+)"
 )
 _SLACK = re.compile(
-    r"(?:what|how much) (?:slack|room|margin|leeway|headroom|distance|space)"
-    r"(?: (?:have we|do we have|is there|is|do you have))?(?: (?:left|got|still))* "
+    r"(?:what|how much) (?:slack|room|margin|leeway|headroom|distance|"
+    r"space)(?: (?:have we|do we have|is there|is|do you have))?(?: (?:left|got|still))* "
     r"(?:before|to|until|up to|below|under|till) (?P<b>.+)"
 )
 _SEPARATED = re.compile(
@@ -53,8 +53,7 @@ _APARTS = tuple(
     for pattern in (
         rf"(?:by )?how (?:much|far) (?:{IS} )?(?P<a>.+?) (?:(?:lie|be|stay|sit|stand) )?"
         rf"(?:(?P<below>{BELOW})|(?P<above>{ABOVE})|(?P<apart>{_APART})) (?P<b>.+)",
-        rf"(?:by )?how (?:much|far) (?:(?P<below>{BELOW})|(?P<above>{ABOVE})|"
-        rf"(?P<apart>{_APART})) "
+        rf"(?:by )?how (?:much|far) (?:(?P<below>{BELOW})|(?P<above>{ABOVE})|(?P<apart>{_APART})) "
         rf"(?P<b>.+) {IS} (?P<a>.+?)(?: (?:lie|be|sit|stand|lying))?",
         r"how (?:much|far)(?: (?:lies?|is there|are there|is|remains?|room is there))? "
         r"(?P<apart>between) (?P<a>.+) and (?P<b>.+)",
@@ -68,14 +67,14 @@ _TAKEN = tuple(
     re.compile(pattern)
     for pattern in (
         rf"(?:subtract|deduct|take(?: away)?|remove) (?P<b>.+?) from (?P<a>.+?){_GET}",
-        r"how much (?:is|are|would be|remains?) (?:left|left over|remaining|there)? ?(?:if|"
-        r"when|after) "
-        r"(?:you |we |i )?(?P<b>.+) (?:is|are) (?:subtracted|taken(?: away)?|deducted|removed) "
+        r"how much (?:is|are|would be|remains?) (?:left|left over|remaining|there)? "
+        r"?(?:if|when|after) (?:you |we |i )?(?P<b>.+) (?:is|are) "
+        r"(?:subtracted|taken(?: away)?|deducted|removed) "
         r"from (?P<a>.+)",
         r"(?:what|how much) (?:do|would) (?:you|we|i) (?:get|have) (?:if|when) (?:you|we|i) "
         r"(?:subtract|deduct|take) (?P<b>.+) from (?P<a>.+)",
-        rf"(?:take|start with|begin with)? ?(?P<a>.+?)(?: and)?(?: then)? (?:subtract|deduct|"
-        rf"take away|"
+        rf"(?:take|start with|begin with)? ?(?P<a>.+?)(?: and)?(?: then)? "
+        rf"(?:subtract|deduct|take away|"
         rf"take off) (?P<b>.+?){_GET}",
     )
 )
@@ -88,14 +87,13 @@ _ADDED = tuple(
     )
 )
 _INTO_BAND = re.compile(
-    r"(?:how much|what is the (?:smallest|least)).*\b(?:change|correct(?:ion)?|adjust(?:ment)?)\b.*"
-    r" (?:in|inside|within|into|to) (?:the |our )?(?P<band>.+?)(?: if .*)?"
+    r"(?:how much|what is the (?:smallest|least)).*\b(?:change|correct(?:ion)?|"
+    r"adjust(?:ment)?)\b.* (?:in|inside|within|into|to) (?:the |our )?(?P<band>.+?)(?: if .*)?"
 )
 _POINT = re.compile(
     r"(?:what is |how (?:much|far) is )?(?:the )?(?:distance (?:between|from|of) )?(?:the "
-    r")?(?:contact|it) "
-    r"(?:and|to|from|away from) (?:the )?(?:(?:point|spot|place) )?(?:at )?x (?P<x>#.+?) "
-    r"(?:and )?y (?P<y>#.+)"
+    r")?(?:contact|it) (?:and|to|from|away from) (?:the )?(?:(?:point|spot|place) )?(?:at )?x "
+    r"(?P<x>#.+?) (?:and )?y (?P<y>#.+)"
 )
 
 

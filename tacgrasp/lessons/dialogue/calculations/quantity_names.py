@@ -15,16 +15,16 @@ _THING = (
 _OF_THING = rf"(?: of (?:the |this |that |our )?{_THING})"
 _BAND_NAME = (
     r"(?:(?:target|wanted|goal|force|desired|requested|required|agreed|intended|set|permitted|"
-    r"allowed|given|specified|aimed at|asked for) )*(?:band|range|window|corridor|interval|"
-    r"goal|target)"
+    r"allowed|given|specified|aimed at|asked for) )*(?:band|range|window|corridor|interval|goal|"
+    r"target)"
 )
 _LOW = r"(?:lower|lowest|low|bottom|minimum|least|min)"
 _HIGH = r"(?:upper|highest|high|top|maximum|most|max)"
 _END = r"(?:end|edge|bound|boundary|border|limit|side|rim|value|force|threshold|point|mark|part)"
 _MIDDLE = r"(?:middle|midpoint|mid point|center|mid|mean|average)"
 _ON = (
-    r"(?: (?:on|against|at|in|onto|upon|of) (?:the )?(?:pad|gel|sensor|object|contact|finger|"
-    r"grip|skin))?"
+    r"(?: (?:on|against|at|in|onto|upon|of) (?:the )?(?:pad|gel|sensor|object|contact|finger|grip|"
+    r"skin))?"
 )
 
 
@@ -38,14 +38,14 @@ def _ends(which: str) -> str:
 
 
 _NAMED: Mapping[str, tuple[str, str]] = {
-    rf"(?:normal |contact |grip |gripping |grasp |pressing |squeezing |pinch |clamping )*"
-    rf"(?:force|squeeze|push|pressure|grip|pinch|press){_ON}|(?:grip|force) strength|"
+    rf"(?:normal |contact |grip |gripping |grasp |pressing |squeezing |pinch |clamping )*(?:force|"
+    rf"squeeze|push|pressure|grip|pinch|press){_ON}|(?:grip|force) strength|"
     r"(?:force |what )?(?:that )?(?:you|we) (?:feel|press|apply|measure)(?: with)?|force felt": (
         "force_n", "force",
     ),
-    r"(?:force |permitted |allowed |permissible |hard |upper |safety |maximum |never exceed )*"
-    r"(?:limit|ceiling|cap)(?: force)?|(?:permitted|allowed|permissible) (?:maximum|max)(?: "
-    r"force)?|"
+    r"(?:force |permitted |allowed |permissible |hard |upper |safety |maximum |"
+    r"never exceed )*(?:limit|ceiling|cap)(?: force)?|"
+    r"(?:permitted|allowed|permissible) (?:maximum|max)(?: force)?|"
     r"maximum (?:permitted|allowed|permissible) force|maximum force (?:permitted|allowed)": (
         "limit_n", "force",
     ),
@@ -57,12 +57,12 @@ _NAMED: Mapping[str, tuple[str, str]] = {
     rf"(?:width|span|breadth) of (?:the |our )?{_BAND_NAME}|{_BAND_NAME}(?:'s)? (?:width|span)": (
         "band_high_n - band_low_n", "force",
     ),
-    rf"(?:maximum |peak |contact |indentation |penetration |imprint |greatest |deepest )*"
-    rf"(?:depth|indentation|dent|penetration|imprint)(?: of (?:the )?(?:contact|dent|press|"
+    rf"(?:maximum |peak |contact |indentation |penetration |imprint |greatest |deepest )*(?:depth|"
+    rf"indentation|dent|penetration|imprint)(?: of (?:the )?(?:contact|dent|press|"
     rf"indentation|imprint|{_THING}))?": ("depth_mm", "length"),
-    r"(?:contact |touched |covered |pressed |touching )*(?:area|patch|footprint|coverage)"
-    r"(?: (?:size|percentage|share))?(?: of (?:the )?contact)?|(?:touched|covered|pressed) "
-    r"(?:share|part|portion|fraction|percentage)(?: of (?:the )?pad)?|"
+    r"(?:contact |touched |covered |pressed |touching )*(?:area|patch|footprint|"
+    r"coverage)(?: (?:size|percentage|share))?(?: of (?:the )?contact)?|"
+    r"(?:touched|covered|pressed) (?:share|part|portion|fraction|percentage)(?: of (?:the )?pad)?|"
     r"(?:share|part|portion|fraction|percentage) of (?:the )?pad (?:that is )?"
     r"(?:touched|covered|pressed)": ("area_percent", "fraction"),
     r"(?:free|untouched|uncovered) (?:part|share|portion|area|rest)(?: of (?:the )?pad)?": (

@@ -18,9 +18,8 @@ from tacgrasp.lessons.dialogue.calculations.terms import PLAIN, Term
 from tacgrasp.lessons.dialogue.quantities import UNITS
 
 _TAIL = (
-    r"(?: (?:amount|come|correspond|add up|be equal|equal) to| makes?(?: up)?| takes? up| "
-    r"represents?|"
-    r" at| uses?(?: up)?| be| equals?| account for| cover)?"
+    r"(?: (?:amount|come|correspond|add up|be equal|equal) to| makes?(?: up)?| takes? up|"
+    r" represents?| at| uses?(?: up)?| be| equals?| account for| cover)?"
 )
 _USED = r"(?:taken up|used|used up|filled|consumed|reached|covered|exhausted)"
 _FREE = (
@@ -48,15 +47,15 @@ _RATIOS = tuple(
     for pattern in (
         r"how many times(?: \w+)? (?:is|are) (?P<a>.+) (?:than|as|of) (?P<b>.+)",
         r"how many times (?:does|do) (?P<b>.+) (?:fit|go) (?:in|into) (?P<a>.+)",
-        r"(?:(?:what|how much) (?:do|would) (?:you|we|i) (?:get|have) (?:if|when) (?:you|we|"
-        r"i) )?divide "
+        r"(?:(?:what|how much) (?:do|would) (?:you|we|i) (?:get|have) (?:if|when) (?:you|we|i) "
+        r")?divide "
         r"(?P<a>.+) by (?P<b>.+)",
         r"(?:what is )?(?P<a>.+) divided by (?P<b>.+)",
         r"(?:what is |the )*ratio (?:of|between) (?P<a>.+) (?:to|and) (?P<b>.+)",
         r"how many times (?P<b>the .+?) (?:is|are) (?P<a>.+)",
-        r"by (?:what|which) (?:factor|number) (?:would|must|should|do|could|can) (?:i|we|"
-        r"you) (?:have to )?"
-        r"(?:multiply|scale|raise) (?P<b>.+) to (?:land (?:exactly )?on|get(?: to)?|reach|be "
+        r"by (?:what|which) (?:factor|number) (?:would|must|should|do|could|can) (?:i|we|you) "
+        r"(?:have to )?(?:multiply|scale|raise) (?P<b>.+) to "
+        r"(?:land (?:exactly )?on|get(?: to)?|reach|be "
         r"at|obtain) (?P<a>.+)",
     )
 )
@@ -66,9 +65,9 @@ _EXCEEDED = re.compile(
 )
 _MULTIPLIED = re.compile(r"multiply (?P<a>.+) by (?P<b>#\d+)")
 _UNUSED = re.compile(
-    rf"(?:what|how many|how much|which)(?: {PARTS})? of (?P<b>.+?)(?: is| are| do we(?: still)? "
-    rf"have| have we)?"
-    rf"(?: still)?(?: remains?| stays?| is)? {_FREE}"
+    rf"(?:what|how many|how much|which)(?: {PARTS})? of "
+    rf"(?P<b>.+?)(?: is| are| do we(?: still)? have| have we)?(?: still)?(?: remains?| stays?|"
+    rf" is)? {_FREE}"
 )
 _THICK = re.compile(
     r"(?:if|suppose|assuming|say|given) (?:the|this|our) (?:gel|pad|skin) (?:is|were|was) "

@@ -24,8 +24,8 @@ from tacgrasp.lessons.dialogue.meaning import Calculated
 from tacgrasp.lessons.dialogue.scene import NAMES
 
 _SUPPOSED = re.compile(
-    r"(?:if|suppose|supposing|imagine|assume|assuming|say|were|with|after|once|when)(?: "
-    r"that)? (?P<all>.+)"
+    r"(?:if|suppose|supposing|imagine|assume|assuming|say|were|with|after|once|when)(?: that)? "
+    r"(?P<all>.+)"
 )
 _QUESTION = re.compile(
     r" (?:then )?(?=(?:what|how|would|will|could|can|is|are|does|do|which|by how|in)\b)"
@@ -34,19 +34,18 @@ _CONDITION = re.compile(
     r" (?:if|suppose|supposing|provided|assuming|once|when|after|with)(?: that)? (?=.)"
 )
 _EXTRA = re.compile(
-    rf"(?:would|will|does) (?:(?:(?:adding|another|an extra|a further) )+(?P<b>#\d+ "
-    rf"(?:{UNIT}))(?: more| extra)?|"
-    rf"(?P<more>#\d+ (?:{UNIT})) (?:more|extra)) (?P<rest>.+)"
+    rf"(?:would|will|does) (?:(?:(?:adding|another|an extra|a further) )+(?P<b>#\d+ (?:{UNIT}))(?: "
+    rf"more| extra)?|(?P<more>#\d+ (?:{UNIT})) (?:more|extra)) (?P<rest>.+)"
 )
 _WITHOUT = re.compile(
-    rf"(?:can|could|may|might) (?:i|we|you) (?:still )?(?:add|put on|press|squeeze)(?: "
-    rf"another)? (?P<b>#\d+ (?:{UNIT}))"
+    rf"(?:can|could|may|might) (?:i|we|you) (?:still )?(?:add|put on|press|squeeze)(?: another)? "
+    rf"(?P<b>#\d+ (?:{UNIT}))"
     r"(?: more| harder| extra)? without (?:going over|exceeding|passing|breaking|"
     r"crossing)(?: (?:it|(?:the )?limit))?"
 )
 _SUBJECT = re.compile(
-    r"(?:what|how (?:much|deep|large|big|strong|high)) (?:would|will|is) (.+?) (?:be|become|"
-    r"come to|amount to)\b"
+    r"(?:what|how (?:much|deep|large|big|strong|high)) (?:would|will|is) (.+?) "
+    r"(?:be|become|come to|amount to)\b"
 )
 """What a pronoun before or behind stands for: 'what would the force be if it rose'."""
 
@@ -54,13 +53,12 @@ _MEASURED = {"deep": "length", "heavy": "mass", "strong": "force", "hard": "forc
 _HOW = re.compile(rf"how ({'|'.join(_MEASURED)})\b")
 _NOUN = re.compile(r"\b(?:force|depth|mass|weight|area|limit)\b")
 _RESULT = re.compile(
-    r"(?:what|how (?:much|deep|heavy|large|big|strong|hard))(?: (?:force|depth|mass|weight|"
-    r"area|limit))? "
-    r"(?:would|will|is|are|does|do)(?: (?:that|it|we|you|i|there|each(?: of them)?|the (?:new|"
-    r"total|resulting|whole|combined) "
-    r"\w+|the (?:force|depth|mass|weight|area|limit)|the|remain|be|left|have|result|become|"
-    r"read|show|get|make|come|to|amount|still|then|apply|feel|carry|hold|take))*|"
-    r"(?:what|how much) (?:remains|is left|results)|"
+    r"(?:what|how (?:much|deep|heavy|large|big|strong|hard))(?: "
+    r"(?:force|depth|mass|weight|area|limit))? (?:would|will|is|are|does|"
+    r"do)(?: (?:that|it|we|you|i|there|each(?: of them)?|"
+    r"the (?:new|total|resulting|whole|combined) \w+|the (?:force|depth|mass|weight|area|limit)|"
+    r"the|remain|be|left|have|result|become|read|show|get|make|come|to|amount|still|then|apply|"
+    r"feel|carry|hold|take))*|(?:what|how much) (?:remains|is left|results)|"
     r"(?:what|how many|how much|which)(?: (?:percent|percentage|share))? of (?:the )?pad "
     r"(?:would|will|does) (?:it|that) (?:cover|touch)"
 )

@@ -77,21 +77,20 @@ _MULTIPLES: Mapping[str, str] = {
     r"(?:a |one )?tenth": "0.1",
 }
 _ARTICLE = re.compile(
-    r"(?:(?:the|our|your|its|this|that|an?|current|currently|present|presently|actual|measured|applied|exerted|"
-    r"felt|momentary|real|whole|total|overall|existing|latest|exact|full|size of|value of|"
-    r"amount of|level of|figure for|reading of|contact's|object's|of) )+(?=\S)"
+    r"(?:(?:the|our|your|its|this|that|an?|current|currently|present|presently|actual|measured|"
+    r"applied|exerted|felt|momentary|real|whole|total|overall|existing|latest|exact|full|size of|"
+    r"value of|amount of|level of|figure for|reading of|contact's|object's|of) )+(?=\S)"
 )
 _TRAILING = re.compile(
     r"(?: (?:from here|right now|just now|now|currently|presently|at present|at the moment|here|"
-    r"instead|today|"
-    r"itself|as felt|as measured|in size|value|figure|reading|"
-    r"on (?:the )?(?:pad|gel)|(?:that )?(?:you|we|i)(?: are| am)? (?:feel|have|read|see|"
-    r"press|apply|"
-    r"measur|us|squeez|exert)(?:e|ing)?(?: (?:with|now|there|here|on it))*))+$"
+    r"instead|today|itself|as felt|as measured|in size|value|figure|reading|"
+    r"on (?:the )?(?:pad|gel)|(?:that )?(?:you|we|i)(?: are| am)? "
+    r"(?:feel|have|read|see|press|apply|measur|us|squeez|exert)(?:e|"
+    r"ing)?(?: (?:with|now|there|here|on it))*))+$"
 )
 _NUMBER = re.compile(
-    rf"(?:(?:depth|force|area|mass|load|grip|weight) of )?(#\d+)(?: ({UNIT})(?: (?:of "
-    rf")?(?:force|deep|depth))?| force)?"
+    rf"(?:(?:depth|force|area|mass|load|grip|weight) of )?(#\d+)(?: "
+    rf"({UNIT})(?: (?:of )?(?:force|deep|depth))?| force)?"
 )
 
 _OPERATIONS: Sequence[tuple[str, re.Pattern[str]]] = tuple(
