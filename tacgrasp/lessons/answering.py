@@ -110,8 +110,9 @@ def _answered(
     told = [(words or {}).get(name, 1.0) for name in names_of(asked.meaning)]
     interval, holds, holds_well = None, 1.0, True
     if given.decidable and given.value is not None and scene.state.in_contact and ends:
-        scenes = list(_possible(scene, ends))
-        values = [answer(asked.meaning, each).value for each in scenes]
+        told_of = ((each, answer(asked.meaning, each).value) for each in _possible(scene, ends))
+        possible = [(each, value) for each, value in told_of if value is not None]
+        scenes, values = [each for each, _ in possible], [value for _, value in possible]
         if given.kind is AnswerKind.NUMBER:
             low, high = np.quantile(
                 np.array(values, dtype=np.float64), [0.05, 0.95], method="hazen"

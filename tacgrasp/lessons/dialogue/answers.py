@@ -47,6 +47,7 @@ from tacgrasp.lessons.dialogue.scene import AskedScene, Value
 
 OFF_TOPIC = "That is not about touch."
 UNKNOWABLE = "I can't feel {}."
+BY_NOTHING = "I can't say: it would be divided by nothing."
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -155,6 +156,8 @@ def _shown(asked: Check, scene: AskedScene) -> str:
 def _calculated(asked: Calculated, scene: AskedScene) -> Answer:
     kind = kind_of(asked)
     value = Expression(asked.truth).evaluate(scene.values()).value
+    if value is None:
+        return Answer(text=BY_NOTHING, kind=AnswerKind.UNKNOWABLE, decidable=False)
     if asked.unit is not None:
         text = value_text(float(value or 0.0), asked.unit)
         return Answer(text=f"{text}.", kind=kind, value=number_in(text), unit=asked.unit)
@@ -169,6 +172,8 @@ def _calculated(asked: Calculated, scene: AskedScene) -> Answer:
 def _calculated_clause(asked: Calculated, scene: AskedScene) -> str:
     """What is calculated in short, beside other answers."""
     value = Expression(asked.truth).evaluate(scene.values()).value
+    if value is None:
+        return "I can't say what is divided by nothing"
     if asked.unit is not None:
         return f"that is {value_text(float(value or 0.0), asked.unit)}"
     return ("yes" if value else "no") if isinstance(value, bool) else str(value)

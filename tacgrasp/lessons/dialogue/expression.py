@@ -58,7 +58,7 @@ class TruthValue:
     """Value of an expression in a scene.
 
     Attributes:
-        value: The value; None where a name that it needs has none.
+        value: The value; None where a name that it needs has none, or something is divided by 0.
         margin: Least distance of two numbers that were compared; infinite without a comparison.
     """
 
@@ -202,12 +202,12 @@ class Expression:
         """The value in a scene.
 
         Raises:
-            ValueError: Words and numbers are mixed, or something is divided by 0.
+            ValueError: Words and numbers are mixed, or a root has no value.
         """
         margins = [math.inf]
         try:
             value = _evaluate(self._tree, values, margins)
-        except _UndefinedError:
+        except (_UndefinedError, ZeroDivisionError):
             return TruthValue(value=None)
         except (TypeError, ValueError, ArithmeticError) as error:
             raise ValueError(f"{self.text!r} can't be evaluated: {error}") from None

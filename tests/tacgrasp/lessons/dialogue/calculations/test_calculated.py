@@ -1,10 +1,15 @@
+import math
+from dataclasses import replace
+
 import pytest
 
+from tacgrasp.lessons.answering import answered
 from tacgrasp.lessons.dialogue.answers import answer
 from tacgrasp.lessons.dialogue.calculations.calculated import calculated
 from tacgrasp.lessons.dialogue.expression import Expression
 from tacgrasp.lessons.dialogue.meaning import AnswerKind, kind_of
 from tacgrasp.lessons.dialogue.query import query_of, read_query
+from tacgrasp.lessons.read_question import ReadQuestion
 from tests.fakes.question_scenes import FREE, HELD, UNTOUCHED
 
 NUMBERS = [
@@ -229,3 +234,16 @@ def test_every_truth_can_be_evaluated():
     rows = [truth for _, truth, _ in NUMBERS] + [truth for _, truth in CHECKS + CHOICES]
     for truth in rows:
         Expression(truth).evaluate({**values, "mass_g": 30.0})
+
+
+def test_what_would_be_divided_by_nothing_is_not_told():
+    weightless = replace(HELD, state=replace(HELD.state, force_n=0.0))
+    asked = ReadQuestion("", calculated("Divide the limit by the force."), 1.0)
+    told = answered(asked, weightless, {}, {"force_n": (0.0, 0.1)})
+    assert (told.answer.decidable, told.answer.value, told.interval) == (False, None, None)
+
+
+def test_an_interval_leaves_out_what_would_be_divided_by_nothing():
+    asked = ReadQuestion("", calculated("Divide the limit by the force."), 1.0)
+    low, high = answered(asked, HELD, {}, {"force_n": (0.0, 1.2)}).interval
+    assert 1.0 < low < 1.3 / 0.83 < high < math.inf
