@@ -78,8 +78,8 @@ ALONE_FROM = 0.5
 """Confidence from which a question that does not begin as a follow-up is none. Our choice."""
 
 CALCULATED_CONFIDENCE = 0.85
-"""Confidence in the terms that were read of a question. Our choice: nearly so many were read
-rightly of those that strangers asked first."""
+"""Confidence in the terms that were read of a question. Our choice, not fitted: a term may be read
+amiss, where a wording of the grammar is not."""
 
 _FOLLOWS = re.compile(r"(?:and|but|then|why|how come|what about|how about|same)\b", re.I)
 

@@ -159,7 +159,7 @@ def _calculated(asked: Calculated, scene: AskedScene) -> Answer:
     if value is None:
         return Answer(text=BY_NOTHING, kind=AnswerKind.UNKNOWABLE, decidable=False)
     if asked.unit is not None:
-        text = value_text(float(value or 0.0), asked.unit)
+        text = value_text(float(value), asked.unit)
         return Answer(text=f"{text}.", kind=kind, value=number_in(text), unit=asked.unit)
     if kind is AnswerKind.CHOICE:
         return Answer(text=f"{capital(str(value))}.", kind=kind, value=value)
@@ -171,12 +171,13 @@ def _calculated(asked: Calculated, scene: AskedScene) -> Answer:
 
 def _calculated_clause(asked: Calculated, scene: AskedScene) -> str:
     """What is calculated in short, beside other answers."""
-    value = Expression(asked.truth).evaluate(scene.values()).value
-    if value is None:
-        return "I can't say what is divided by nothing"
-    if asked.unit is not None:
-        return f"that is {value_text(float(value or 0.0), asked.unit)}"
-    return ("yes" if value else "no") if isinstance(value, bool) else str(value)
+    told = _calculated(asked, scene)
+    if told.kind is AnswerKind.YES_NO:
+        return "yes" if told.value else "no"
+    if told.kind is AnswerKind.CHOICE:
+        return str(told.value)
+    text = told.text.rstrip(".")
+    return f"that is {text}" if told.decidable else text
 
 
 def _which(asked: Which, scene: AskedScene) -> Answer:

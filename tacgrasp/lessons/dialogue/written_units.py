@@ -13,7 +13,7 @@ from collections.abc import Mapping, Sequence
 
 from tacgrasp.lessons.dialogue.quantities import GRAVITY_N_PER_G, UNITS, can_be_in
 
-_SPELLED: Mapping[str, str] = {
+SPELLED: Mapping[str, str] = {
     r"mm|millimet(?:re|er)s?": "mm",
     r"µm|um|microns?|micromet(?:re|er)s?": "µm",
     r"cm|centimet(?:re|er)s?": "cm",
@@ -25,8 +25,10 @@ _SPELLED: Mapping[str, str] = {
     r"percent": "%",
     r"mm2|mm²|(?:square|sq) (?:mm|millimet(?:re|er)s?)": "mm²",
 }
+"""Units by their plain words."""
+
 _BEHIND_NUMBER = re.compile(
-    "#(?: (?:" + "|".join(f"({spelled})" for spelled in _SPELLED) + r")(?![^ ]))?"
+    "#(?: (?:" + "|".join(f"({spelled})" for spelled in SPELLED) + r")(?![^ ]))?"
 )
 _GIVEN_UNIT = re.compile(r"#(\d)(?: (?:\+-|-) #(\d))? ([^\s.;]+)")
 _FOREIGN: Mapping[str, tuple[str, ...]] = {
@@ -48,7 +50,7 @@ _FOREIGN: Mapping[str, tuple[str, ...]] = {
 
 _ASKED: Mapping[str, tuple[str, ...]] = {
     **_FOREIGN,
-    **{spelled: (unit,) for spelled, unit in _SPELLED.items()},
+    **{spelled: (unit,) for spelled, unit in SPELLED.items()},
 }
 _SAID_UNIT = "|".join(_ASKED)
 _ASKED_UNIT = re.compile(
@@ -137,7 +139,7 @@ def _units_of(spelled: str) -> tuple[str, ...]:
 
 def _written(words: str) -> list[str]:
     """The unit behind each '#'; '' where none is."""
-    units = tuple(_SPELLED.values())
+    units = tuple(SPELLED.values())
     return [
         next((unit for unit, said in zip(units, match.groups(), strict=True) if said), "")
         for match in _BEHIND_NUMBER.finditer(words)

@@ -38,8 +38,6 @@ _COUNT = re.compile(
     r"(?:of )?(?:these |the )?(?:objects|things|pieces|items|berries))(?: "
     r"(?:have|weigh|together|be|come to|amount to))+"
 )
-
-
 _AT = re.compile(
     r"at how much (?:would|will|do|should) (?:we|i|it|you) (?:stand|be)(?: at)? (?P<a>.+)"
 )
@@ -87,7 +85,7 @@ def amount_of(term: Term, asked: AskedWords) -> Calculated | None:
         return None
     if UNITS[unit].dimension == "force" and term.dimension == "mass":
         return Calculated(truth=in_newtons(term).expression, unit=unit)
-    if UNITS[unit].dimension == "area" and "area_percent" in expression and term.is_sum is False:
+    if UNITS[unit].dimension == "area" and "area_percent" in expression and not term.is_sum:
         return Calculated(truth=in_mm2(term).expression, unit=unit)
     if UNITS[unit].dimension != term.dimension:
         return None

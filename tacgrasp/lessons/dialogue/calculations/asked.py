@@ -144,7 +144,7 @@ class AskedWords:
 
     def _supposed(self, term: Term) -> Term:
         """A term with what the question supposes in place of what is."""
-        if self.subject is None or not re.search(rf"\b{self.base or '-'}\b", term.expression):
+        if self.subject is None or not self.base:
             return term
         value = f"({self.subject.expression})"
         if term.expression == self.base:

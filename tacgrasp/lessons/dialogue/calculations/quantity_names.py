@@ -8,6 +8,8 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 
+from tacgrasp.lessons.dialogue.written_units import SPELLED
+
 _THING = (
     r"(?:object|thing|berry|strawberry|fruit|item|part|piece|egg|tomato|peg|load|body|specimen|"
     r"sample|product|article|workpiece|good|goods)"
@@ -93,17 +95,7 @@ WEIGHT = re.compile(rf"(?:own )?weight{_OF_THING}?|{_THING}(?:'s)?(?: own)? weig
 
 _BAND = re.compile(rf"(?:(?:the|our|this|whole|entire) )*{_BAND_NAME}")
 
-_UNIT_WORDS: Mapping[str, str] = {
-    r"millimetres?|mm": "mm",
-    r"microns?|micrometres?|um|µm": "µm",
-    r"centimetres?|cm": "cm",
-    r"newtons?|n": "N",
-    r"millinewtons?|mn": "mN",
-    r"grams?|g": "g",
-    r"kilograms?|kilos?|kg": "kg",
-    r"percent|percentage points?|points?": "%",
-    r"mm2|square millimetres?": "mm²",
-}
+_UNIT_WORDS: Mapping[str, str] = {**SPELLED, r"percentage points?|points?": "%"}
 UNIT = "|".join(_UNIT_WORDS)
 """Words of the units that a calculation may be in."""
 
