@@ -25,20 +25,11 @@ from tacgrasp.lessons.dialogue.facts import truth_in_words
 from tacgrasp.lessons.dialogue.families.catalogue import understand
 from tacgrasp.lessons.dialogue.meaning import AnswerKind
 from tacgrasp.lessons.dialogue.scene import AskedScene
-from tacgrasp.lessons.dialogue.scoring.answer_scores import AnswerScore, dimension_of, score_answer
+from tacgrasp.lessons.dialogue.scoring.answer_scores import AnswerScore, score_answer
 from tacgrasp.lessons.dialogue.scoring.question_file import UNDECIDABLE, QuestionRow
+from tacgrasp.lessons.dialogue.scoring.truth_units import unit_of
 
 CONFIDENCE_GROUPS = 10
-
-_BASE_UNITS = {
-    "length": "mm",
-    "force": "N",
-    "fraction": "%",
-    "area": "mm²",
-    "mass": "g",
-    "ratio": "",
-    "": "",
-}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -186,10 +177,7 @@ def perfect_answer(asked: AskedQuestion) -> str:
     if asked.row.kind in UNDECIDABLE:
         is_topic = asked.row.kind is AnswerKind.UNKNOWABLE
         return "I can't feel that." if is_topic else "I only answer about touch."
-    texts = [
-        truth_in_words(truth, _BASE_UNITS[dimension_of(truth)], asked.scene)
-        for truth in asked.row.truths
-    ]
+    texts = [truth_in_words(truth, unit_of(truth), asked.scene) for truth in asked.row.truths]
     return f"{'; '.join(dict.fromkeys(texts) if len(set(texts)) == 1 else texts)}."
 
 
@@ -219,7 +207,7 @@ def _median_text(asked: Sequence[AskedQuestion], family: str) -> str:
         return ""
     truths = [(one.row.truths[0], one.row.truths[0].evaluate(one.scene.values())) for one in mine]
     values = [float(truth.value) for _, truth in truths if isinstance(truth.value, (int, float))]
-    unit = _BASE_UNITS[dimension_of(truths[0][0])]
+    unit = unit_of(truths[0][0])
     return f"{float(np.median(values)):.4f} {unit}." if values else ""
 
 

@@ -116,6 +116,18 @@ class Expression:
         )
 
     @property
+    def power_of_ten(self) -> float:
+        """The power of ten that all of it is multiplied with, or divided by; else 1."""
+        match self._tree:
+            case ast.BinOp(op=ast.Mult(), left=left, right=right):
+                power = _power_of_ten(right) or _power_of_ten(left)
+            case ast.BinOp(op=ast.Div(), right=right):
+                power = 1 / (_power_of_ten(right) or 1.0)
+            case _:
+                power = None
+        return power or 1.0
+
+    @property
     def is_percentage(self) -> bool:
         """Whether 100 times a quotient is in it."""
         nodes = list(ast.walk(self._tree))
@@ -212,6 +224,15 @@ class Expression:
         except (TypeError, ValueError, ArithmeticError) as error:
             raise ValueError(f"{self.text!r} can't be evaluated: {error}") from None
         return TruthValue(value=value, margin=min(margins))
+
+
+def _power_of_ten(node: ast.AST) -> float | None:
+    """The number that a node is if that is a power of ten, else None."""
+    match node:
+        case ast.Constant(value=int(number) | float(number)) if number > 0:
+            power = round(math.log10(number))
+            return float(number) if math.isclose(number, 10.0**power) else None
+    return None
 
 
 def _is_power(node: ast.AST) -> bool:

@@ -119,10 +119,12 @@ class Measured:
     Attributes:
         value: Its value in mm, N, percent, mm² or g.
         dimension: What it measures; '' for a number without a unit.
+        size: Its unit in that of the value: 0.001 of µm.
     """
 
     value: float
     dimension: str
+    size: float = 1.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -189,7 +191,7 @@ def _measured(match: re.Match[str]) -> Measured:
     for index, symbol in enumerate(_UNIT_NAMES):
         if match[f"u{index}"] is not None:
             unit = UNITS[symbol]
-            return Measured(value=value * unit.size, dimension=unit.dimension)
+            return Measured(value=value * unit.size, dimension=unit.dimension, size=unit.size)
     return Measured(value=value, dimension="")
 
 

@@ -16,11 +16,10 @@ from tacgrasp.lessons.dialogue.quantities import GRAVITY_N_PER_G
 from tacgrasp.lessons.dialogue.scene import NAMES, AskedScene
 from tacgrasp.lessons.dialogue.scoring.answer_reading import AnswerReading, Measured, read_answer
 from tacgrasp.lessons.dialogue.scoring.question_file import UNDECIDABLE, QuestionRow
+from tacgrasp.lessons.dialogue.scoring.truth_units import dimension_of, scale_of
 
 VERDICTS = ("contact", "cut")
 """Names whose value is yes or no."""
-
-_DIMENSIONS = {"_mm": "length", "_mm2": "area", "_n": "force", "_percent": "fraction", "_g": "mass"}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -76,34 +75,6 @@ def score_answer(text: str, row: QuestionRow, scene: AskedScene) -> AnswerScore:
     )
 
 
-def dimension_of(truth: Expression) -> str:
-    """What a number measures, by the first name of its truth; '' for a word.
-
-    A quotient of two names of one dimension is a ratio, and 100 of them, or of a name over a
-    number, percent. A mass times what a gram weighs is a force, and a force over it a mass.
-    """
-    if truth.is_percentage:
-        return "fraction"
-    dimensions = [next(filter(None, map(_dimension_of_name, names)), "") for names in truth.divided]
-    has_gravity = any(
-        9.7 < 10 ** (-math.floor(math.log10(n))) * n < 9.9 for n in truth.numbers if n > 0
-    )
-    if has_gravity and set(dimensions) == {"force", "mass"}:
-        return "ratio"
-    if len(set(dimensions)) == 1 and dimensions[0]:
-        return "ratio"
-    first = next(filter(None, map(_dimension_of_name, truth.names)), "")
-    if has_gravity and first == "mass" and len(truth.names) == 1:
-        return "force"
-    if has_gravity and truth.names == ("force_n",) and "/" in truth.text:
-        return "mass"
-    return "ratio" if first == "fraction" and truth.is_hundredth else first
-
-
-def _dimension_of_name(name: str) -> str:
-    return next((found for ending, found in _DIMENSIONS.items() if name.endswith(ending)), "")
-
-
 def _is_close(row: QuestionRow, truths: Sequence[TruthValue]) -> bool:
     is_tolerant = row.kind is AnswerKind.YES_NO and row.tolerance is not None
     return is_tolerant and any(
@@ -139,7 +110,8 @@ def _is_right(
     if row.kind is AnswerKind.NUMBER:
         measured = _converted(reading.numbers, dimension_of(row.truths[0]), scene)
         is_alone = len(measured) == len(reading.numbers) and bool(measured)
-        is_one = is_alone and max(measured) - min(measured) <= 1e-6 + 1e-3 * abs(measured[0])
+        values = [number.value for number in measured]
+        is_one = is_alone and max(values) - min(values) <= 1e-6 + 1e-3 * abs(values[0])
         return is_one and _is_near(measured[0], row, row.truths[0], truths[0])
     return _has_all(reading, row, truths, scene)
 
@@ -149,7 +121,7 @@ def _has_all(
 ) -> bool:
     """Whether words, verdicts and numbers of a text are those of the truths, in their order."""
     verdicts = list(reading.verdicts)
-    numbers: dict[str, list[float]] = {}
+    numbers: dict[str, list[Measured]] = {}
     wanted: dict[str, int] = {}
     asks_mass = any(dimension_of(truth) == "mass" for truth in row.truths)
     for expression, truth in zip(row.truths, truths, strict=True):
@@ -173,15 +145,19 @@ def _has_all(
     return is_bare or all(len(numbers[dimension]) == count for dimension, count in wanted.items())
 
 
-def _is_near(value: float, row: QuestionRow, expression: Expression, truth: TruthValue) -> bool:
+def _is_near(said: Measured, row: QuestionRow, expression: Expression, truth: TruthValue) -> bool:
+    """Whether a number is the truth, which may be stated in the unit that is said."""
+    scale = scale_of(expression)
+    scale = scale if math.isclose(said.size * scale, 1.0, rel_tol=1e-6) else 1.0
     true = float(truth.value or 0.0)
-    return abs(value - true) <= row.tolerance_of(expression).of(true) + 1e-9
+    tolerance = row.tolerance or row.usual_tolerance(expression).times(scale)
+    return abs(said.value * scale - true) <= tolerance.of(true) + 1e-9
 
 
 def _converted(
     numbers: Sequence[Measured], dimension: str, scene: AskedScene | None
-) -> list[float]:
-    """Values of the numbers that measure a dimension, in its own unit.
+) -> list[Measured]:
+    """The numbers that measure a dimension, in its own unit.
 
     Grams count as the force that they weigh, and mm² as the percentage of the sensing area that
     they are; without a scene the values are not needed.
@@ -193,7 +169,11 @@ def _converted(
     factors["fraction", "ratio"] = 0.01
     factors["", "ratio"] = 1.0
     return [
-        number.value * factors[number.dimension, dimension]
+        Measured(
+            value=number.value * factors[number.dimension, dimension],
+            dimension=dimension,
+            size=number.size * factors[number.dimension, dimension],
+        )
         for number in numbers
         if (number.dimension, dimension) in factors and (number.dimension or dimension)
     ]

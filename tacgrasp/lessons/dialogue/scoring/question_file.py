@@ -57,9 +57,9 @@ class QuestionRow:
         """Names of a scene that its truths use."""
         return tuple(dict.fromkeys(name for truth in self.truths for name in truth.names))
 
-    def tolerance_of(self, truth: Expression) -> Tolerance:
-        """Tolerance of one of its truths: the row's, else the usual one."""
-        return self.tolerance or tolerance_of(truth.names)
+    def usual_tolerance(self, truth: Expression) -> Tolerance:
+        """Tolerance of one of its truths where the row has none."""
+        return tolerance_of(truth.names)
 
 
 def read_questions(path: Path | None) -> list[QuestionRow]:

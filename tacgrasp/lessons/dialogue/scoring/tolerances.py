@@ -17,6 +17,10 @@ class Tolerance:
         """Largest error of a value."""
         return max(self.absolute, self.fraction * abs(value))
 
+    def times(self, scale: float) -> Tolerance:
+        """The same of values in a unit that is so many times smaller."""
+        return Tolerance(absolute=self.absolute * scale, fraction=self.fraction)
+
 
 TOLERANCES: Mapping[str, Tolerance] = {
     "x_mm": Tolerance(absolute=1.0),

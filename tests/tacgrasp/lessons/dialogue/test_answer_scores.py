@@ -85,6 +85,26 @@ def test_a_share_is_a_percentage_or_a_plain_ratio_as_its_truth_is_written():
     assert right("-62 cN", "number", "force_n - 145 / 100")
 
 
+def test_a_truth_may_be_stated_in_the_unit_that_is_asked_for():
+    assert right("190 µm", "number", "depth_mm * 1000")
+    assert right("0.019 cm", "number", "depth_mm / 10")
+    assert right("830 mN", "number", "1000 * force_n")
+    assert right("0.025 kg", "number", "mass_g / 1000")
+    assert right("0.085 kg", "number", "force_n / 9.81")
+    assert right("0.37 cm²", "number", "area_mm2 / 100")
+    assert right("0.19 mm; 830 mN.", "text", "depth_mm; force_n * 1000")
+    assert right("1420 µm", "number", "hypot(x_mm, y_mm) * 1000", tolerance="100")
+    assert not right("1420 µm", "number", "hypot(x_mm, y_mm) * 1000", tolerance="1")
+    assert right("240 µm", "number", "depth_mm * 1000")  # within 0.05 mm, as without the factor
+    # another unit than the stated one
+    assert not right("0.19 mm", "number", "depth_mm * 1000")
+    assert not right("190 mm", "number", "depth_mm / 1000")
+    assert not right("0.19 µm", "number", "depth_mm")
+    assert not right("190 µm", "number", "2 * depth_mm")
+    # ten times the depth, where no unit is a tenth of a millimetre
+    assert right("1.9 mm", "number", "10 * depth_mm")
+
+
 def test_a_choice_by_a_condition_is_one_of_its_words():
     truth = "'above' if force_n > 1 else 'below'"
     assert right("Below.", "choice", truth)

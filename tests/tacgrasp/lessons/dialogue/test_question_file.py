@@ -27,9 +27,9 @@ def test_a_file_is_read(tmp_path):
         AnswerKind.TEXT,
         AnswerKind.UNKNOWABLE,
     ]
-    assert rows[0].tolerance_of(rows[0].truths[0]).of(2.0) == pytest.approx(0.2)
+    assert rows[0].tolerance.of(2.0) == pytest.approx(0.2)
     assert rows[1].names == ("position", "force_n")
-    assert rows[1].tolerance_of(Expression("force_n")).of(2.0) == pytest.approx(0.5)
+    assert rows[1].usual_tolerance(Expression("force_n")).of(2.0) == pytest.approx(0.5)
     assert rows[2].truths == ()
 
 

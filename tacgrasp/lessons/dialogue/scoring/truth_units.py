@@ -1,0 +1,73 @@
+"""What a truth measures, and in which multiple of the unit of its names.
+
+A file may state what is asked for in microns as ``depth_mm`` or as ``depth_mm * 1000``.
+"""
+
+from __future__ import annotations
+
+import math
+
+from tacgrasp.lessons.dialogue.expression import Expression
+from tacgrasp.lessons.dialogue.quantities import GRAVITY_N_PER_G, UNITS
+
+_DIMENSIONS = {"_mm": "length", "_mm2": "area", "_n": "force", "_percent": "fraction", "_g": "mass"}
+
+
+def dimension_of(truth: Expression) -> str:
+    """What a number measures, by the first name of its truth; '' for a word.
+
+    A quotient of two names of one dimension is a ratio, and 100 of them, or of a name over a
+    number, percent. A mass times what a gram weighs is a force, and a force over it a mass.
+    """
+    if truth.is_percentage:
+        return "fraction"
+    dimensions = [next(filter(None, map(_dimension_of_name, names)), "") for names in truth.divided]
+    has_gravity = any(map(_is_gravity, truth.numbers))
+    if has_gravity and set(dimensions) == {"force", "mass"}:
+        return "ratio"
+    if len(set(dimensions)) == 1 and dimensions[0]:
+        return "ratio"
+    first = next(filter(None, map(_dimension_of_name, truth.names)), "")
+    if has_gravity and first == "mass" and len(truth.names) == 1:
+        return "force"
+    if has_gravity and truth.names == ("force_n",) and "/" in truth.text:
+        return "mass"
+    return "ratio" if first == "fraction" and truth.is_hundredth else first
+
+
+def scale_of(truth: Expression) -> float:
+    """How many of the unit that a truth is stated in make one of its dimension's own.
+
+    1000 of ``depth_mm * 1000``, which is in microns, and 0.001 of ``force_n / 9.81``, which is in
+    kilograms; 1 where it may as well be a multiple of the quantity ('twice the depth').
+    """
+    dimension = dimension_of(truth)
+    if dimension in ("", "fraction", "ratio"):
+        return 1.0
+    gravity = [number for number in truth.numbers if _is_gravity(number)]
+    if not gravity:
+        return truth.power_of_ten
+    names = dict.fromkeys(truth.names, 1.0)
+    value = truth.evaluate(names).value if len(names) == 1 else None
+    if not isinstance(value, (int, float)) or value <= 0:
+        return 1.0
+    own = 1 / GRAVITY_N_PER_G if dimension == "mass" else GRAVITY_N_PER_G
+    power = round(math.log10(value / own))
+    return 10.0**power if math.isclose(value, own * 10.0**power, rel_tol=0.01) else 1.0
+
+
+def unit_of(truth: Expression) -> str:
+    """The unit that a truth is stated in; '' for a word, a ratio, and a number of none."""
+    dimension, scale = dimension_of(truth), scale_of(truth)
+    units = [unit for unit in UNITS.values() if unit.dimension == dimension]
+    stated = [unit.symbol for unit in units if math.isclose(unit.size * scale, 1.0, rel_tol=1e-6)]
+    return stated[0] if stated else next((each.symbol for each in units if each.size == 1.0), "")
+
+
+def _is_gravity(number: float) -> bool:
+    """Whether a number is 9.8 times a power of ten."""
+    return number > 0 and 9.7 < 10 ** (-math.floor(math.log10(number))) * number < 9.9
+
+
+def _dimension_of_name(name: str) -> str:
+    return next((found for ending, found in _DIMENSIONS.items() if name.endswith(ending)), "")
