@@ -56,7 +56,7 @@ what stands in their tables alone."""
 
 JOINERS = (" and ", ", and ", "? ", "? And ", ", also ", "; ", ", then ", " plus ", ". ", ", ")
 
-WHOLE = 0.3
+WHOLE = 0.45
 """Fraction of learned questions that are whole wordings. Our choice."""
 
 TRIES = 20

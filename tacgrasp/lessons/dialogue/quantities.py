@@ -258,8 +258,9 @@ def can_be_in(name: str, unit: str) -> bool:
 
 
 def percent_text(percent: float) -> str:
-    """A percentage as captions write it: two figures or so."""
-    return f"{percent:.1f}" if percent < 9.95 else f"{percent:.0f}"
+    """A percentage in two figures or so."""
+    decimals = 0 if percent >= 9.95 else 1 if percent >= 0.995 else 2
+    return f"{percent:.{decimals}f}"
 
 
 def number_in(text: str) -> float:
