@@ -44,8 +44,13 @@ def folders():
     }
 
 
-def imported(tree, module):
+@cache
+def imported(module):
     """Full names that a module imports; 'from a import b' may mean module a.b."""
+    return tuple(_imported(trees()[module], module))
+
+
+def _imported(tree, module):
     for node in ast.walk(tree):
         if isinstance(node, ast.Import):
             yield from (alias.name for alias in node.names)
@@ -65,8 +70,8 @@ def folder_of(module):
 def arrows():
     """Folder -> the folders that it imports from -> one import that shows it."""
     graph = defaultdict(dict)
-    for module, tree in trees().items():
-        for target in imported(tree, module):
+    for module in trees():
+        for target in imported(module):
             if target.split(".")[0] in PACKAGES:
                 assert target in trees(), f"{module} imports {target}, which does not exist"
                 if folder_of(target) != folder_of(module):
@@ -94,9 +99,9 @@ def covers(name, folder, origin):
 def test_a_package_imports_only_what_its_arrows_allow(package):
     wrong = [
         f"{name} imports {other}"
-        for name, tree in trees().items()
+        for name in trees()
         if name.split(".")[0] == package
-        for other in imported(tree, name)
+        for other in imported(name)
         if other.split(".")[0] in PACKAGES.keys() - PACKAGES[package] - {package}
     ]
     assert not wrong
@@ -140,10 +145,7 @@ def test_no_circle_of_folders():
 
 
 def test_no_circle_of_modules():
-    edges = {
-        name: {o for o in imported(tree, name) if o in trees() and o != name}
-        for name, tree in trees().items()
-    }
+    edges = {name: {o for o in imported(name) if o in trees() and o != name} for name in trees()}
     # Importing a folder's module runs its __init__ first, which may itself import that module.
     for name in edges.keys() - folders():
         edges[name] -= {p for p in edges if name.startswith(p + ".")}

@@ -53,18 +53,18 @@ class FakeDecoder:
         self._num_inputs = 0
         self.passes = 0
 
-    def begin(self, embeddings: torch.Tensor, tokens: Sequence[int] = ()) -> torch.Tensor:
+    def begin(self, embeddings: torch.Tensor, tokens: Sequence[int] = ()) -> list[torch.Tensor]:
         self._num_inputs, self._tokens = len(embeddings), []
         self.passes += 1
-        return torch.stack([self._logits(()), *self._feed(tokens)])
+        return [self._logits(()), *self._feed(tokens)]
 
-    def advance(self, tokens: Sequence[int]) -> torch.Tensor:
+    def advance(self, tokens: Sequence[int]) -> list[torch.Tensor]:
         assert tokens
         self.passes += 1
-        return torch.stack(self._feed(tokens))
+        return self._feed(tokens)
 
     def scores(self, logits: torch.Tensor, tokens: Sequence[int]) -> list[float]:
-        return [float(logits[token]) for token in tokens]
+        return logits.numpy()[list(tokens)].tolist()
 
     def rewind(self, length: int) -> None:
         assert 0 <= length - self._num_inputs <= len(self._tokens)

@@ -175,8 +175,10 @@ class _States:
     def _after(self, said: list[int], rest: Sequence[int]) -> Tensor:
         if self._states and self._fed[: len(said)] == said:
             return self._states[len(said)]
-        pairs = zip(said, self._fed, strict=False)
-        same = sum(1 for _ in takewhile(lambda pair: pair[0] == pair[1], pairs))
+        same = len(self._fed)
+        if said[:same] != self._fed:
+            pairs = zip(said, self._fed, strict=False)
+            same = sum(1 for _ in takewhile(lambda pair: pair[0] == pair[1], pairs))
         room = self._decoder.longest - len(self._inputs) - len(said)
         if room < 0:
             raise _FullError

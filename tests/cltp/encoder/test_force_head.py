@@ -103,7 +103,8 @@ def test_its_inputs_are_of_the_pressure_and_of_the_readings(caps):
     torch.testing.assert_close(inputs[:, NUM_FEATURES : NUM_FEATURES + 5], output.numbers)
 
 
-def test_it_is_stored_with_its_encoder(caps, tmp_path):
+def test_it_is_stored_with_its_encoder(caps, tmp_path, monkeypatch):
+    monkeypatch.setattr(force_head, "STEPS", 100)
     torch.manual_seed(0)
     encoder = TactileEncoder(PRESETS["tiny_grid"]).eval()
     heads = StateHeads.of(encoder.config)

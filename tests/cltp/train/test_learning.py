@@ -87,29 +87,32 @@ class FakeLessons:
 
 pytestmark = pytest.mark.usefixtures("one_thread")
 
+CONTACTS = 8
+"""Contacts that are learned by heart, all of them in every step."""
+
 
 @pytest.fixture(scope="module")
 def data_dir(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    seeds = {Split.TRAIN: range(12), Split.TEST: range(100, 106)}
+    seeds = {Split.TRAIN: range(CONTACTS), Split.TEST: range(100, 106)}
     return write_contacts(tmp_path_factory.mktemp("data"), seeds)
 
 
 @pytest.fixture(scope="module")
 def trained(data_dir: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Tiny weights that have learned twelve clean contacts by heart."""
+    """Tiny weights that have learned a few clean contacts by heart."""
     folder = tmp_path_factory.mktemp("weights")
     words = train_words(data_dir, FakeLessons(), num_contacts=60, size=400)
     run = TrainingRun(data=data_dir, out=folder)
-    train_clip(run, words, schedule(6, 12), dim=32)
-    train_cltp(run, TINY, schedule(150, 12), augmentation=CLEAN)
+    train_clip(run, words, schedule(6, CONTACTS), dim=32)
+    train_cltp(run, TINY, schedule(150, CONTACTS), augmentation=CLEAN)
     train_llm(
         run,
         words,
         FakeLessons(),
         {
-            "text": schedule(40, 12, 5e-3),
-            "projector": schedule(30, 12, 5e-3),
-            "joint": schedule(130, 12, 5e-3),
+            "text": schedule(40, CONTACTS, 5e-3),
+            "projector": schedule(30, CONTACTS, 5e-3),
+            "joint": schedule(130, CONTACTS, 5e-3),
         },
         dim=48,
         layers=2,
@@ -298,7 +301,7 @@ def test_samples_depend_on_seed_and_step_alone(data_dir: Path) -> None:
     steps = [first.numbered(5, step) for step in range(5)]
     later = Sampler(data, seed=1).numbered(5, 3)
     np.testing.assert_array_equal(later.points, steps[3].points)
-    assert sorted(np.concatenate([s.index for s in steps])[:12]) == list(range(12))
+    assert sorted(np.concatenate([s.index for s in steps])[:CONTACTS]) == list(range(CONTACTS))
     other = Sampler(data, seed=2).numbered(5, 0)
     assert not np.array_equal(other.points, steps[0].points)
 
@@ -329,7 +332,7 @@ def test_an_error_while_making_a_batch_is_raised_in_its_place() -> None:
 def test_a_handful_of_contacts_is_learned_by_heart(trained: Path, data_dir: Path) -> None:
     data = ContactDataset(data_dir, split=Split.TRAIN)
     encoder, heads = load_encoder(trained / "encoder")
-    samples = random_batches(data, 12, CLEAN)
+    samples = random_batches(data, CONTACTS, CLEAN)
     encoded = encode_batches(frozen(encoder), samples)
     predicted = predict_with_heads(heads.eval(), encoded, samples)
     scores = score_classes(predicted.classes, encoded.classes)
@@ -361,9 +364,9 @@ def test_shuffled_labels_do_not_generalise(
     monkeypatch.setattr(shuffled_data, "state", lambda index: data.state(int(order[index])))
     monkeypatch.setattr(TrainingRun, "dataset", lambda *_: shuffled_data)
     run = TrainingRun(data=data_dir, out=folder)
-    train_cltp(run, TINY, schedule(100, 12), augmentation=CLEAN)
+    train_cltp(run, TINY, schedule(100, CONTACTS), augmentation=CLEAN)
     encoder, heads = load_encoder(folder / "encoder")
-    samples = random_batches(data, 12, CLEAN)
+    samples = random_batches(data, CONTACTS, CLEAN)
     encoded = encode_batches(frozen(encoder), samples)
     predicted = predict_with_heads(heads.eval(), encoded, samples)
     shuffled = score_classes(predicted.classes, encoded.classes)
@@ -375,7 +378,7 @@ def test_training_that_starts_from_weights_begins_where_they_ended(
 ) -> None:
     run = TrainingRun(data=data_dir, out=tmp_path)
     shutil.copytree(trained / "clip", tmp_path / "clip")
-    slow = schedule(1, 12, 1e-9)
+    slow = schedule(1, CONTACTS, 1e-9)
     train_cltp(run, TINY, slow, augmentation=CLEAN, start=trained / "encoder")
     words = Words.load(trained / "lm")
     train_llm(run, words, FakeLessons(), {"joint": slow}, augmentation=CLEAN, start=trained)
@@ -472,7 +475,7 @@ def test_a_loss_that_is_not_finite_stops_the_stage(tmp_path: Path) -> None:
 def test_a_finished_training_is_not_repeated(trained: Path, data_dir: Path) -> None:
     before = (trained / "encoder" / "model.safetensors").stat().st_mtime_ns
     run = TrainingRun(data=data_dir, out=trained)
-    train_cltp(run, TINY, schedule(150, 12), augmentation=CLEAN)
+    train_cltp(run, TINY, schedule(150, CONTACTS), augmentation=CLEAN)
     assert (trained / "encoder" / "model.safetensors").stat().st_mtime_ns == before
 
 

@@ -24,7 +24,7 @@ from cltp.evaluation.splits import EvaluationSplit
 from cltp.tactile.states import CLASSES
 from cltp.train.recipes import Schedule
 from tacgrasp.__main__ import main
-from tacgrasp.pretraining import evaluation_run, geometric_baseline
+from tacgrasp.pretraining import evaluation_run, geometric_baseline, methods
 from tacgrasp.pretraining.checkpoints import find_method
 from tacgrasp.pretraining.evaluation_run import EvaluationRun
 from tacgrasp.pretraining.report.paper_numbers import PAPER
@@ -67,7 +67,10 @@ def out(data: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A folder with CLIP, CLTP and the floor, hardly trained."""
     folder = tmp_path_factory.mktemp("methods")
     where = ["--out", str(folder), "--data", str(data), "--threads", "1"]
-    assert main(["train", "clip", *where, "--steps", "2"]) == 0
+    with pytest.MonkeyPatch.context() as patch:
+        brief = partial(methods.train_words, num_contacts=100, size=1024)
+        patch.setattr(methods, "train_words", brief)
+        assert main(["train", "clip", *where, "--steps", "2"]) == 0
     assert main(["train", "cltp", *where, "--preset", "tiny", *QUICK]) == 0
     assert main(["train", "random", *where, "--preset", "tiny"]) == 0
     return folder

@@ -37,6 +37,13 @@ def emulators():
         yield running
 
 
+@pytest.fixture(scope="module")
+def egg():
+    """Devices around an egg in the middle, which stay where they are; a test leaves them open."""
+    with EmulatorProcess("rig", "--seed", "2", "--object", "egg", "--centred") as running:
+        yield running
+
+
 def rig_of(emulators, tmp_path):
     """The fields of a rig file that fits these devices; its calibrations lie beside it."""
     rig, ready = fields(), emulators.ready
@@ -377,13 +384,12 @@ def test_weights_on_real_devices_need_a_person(rig, tmp_path, capsys, monkeypatc
     assert not out.exists()
 
 
-def test_the_calibrated_gripper_calibrates_the_sensor_of_a_new_unit(tmp_path, capsys):
-    with EmulatorProcess("rig", "--seed", "2", "--object", "egg", "--centred") as running:
-        path = tmp_path / "mine.yaml"
-        path.write_text(yaml.safe_dump(rig_of(running, tmp_path)))
-        (tmp_path / "force.json").unlink()  # as of a new unit
-        argv = ["calibrate", "force", "--rig", str(path), "--by", "gripper"]
-        assert main([*argv, "--loads", "0.5", "1", "2"]) == 0, capsys.readouterr().err
+def test_the_calibrated_gripper_calibrates_the_sensor_of_a_new_unit(egg, tmp_path, capsys):
+    path = tmp_path / "mine.yaml"
+    path.write_text(yaml.safe_dump(rig_of(egg, tmp_path)))
+    (tmp_path / "force.json").unlink()  # as of a new unit
+    argv = ["calibrate", "force", "--rig", str(path), "--by", "gripper"]
+    assert main([*argv, "--loads", "0.5", "1", "2"]) == 0, capsys.readouterr().err
     assert f"next      tacgrasp doctor --rig {path}" in capsys.readouterr().out
     made = load_force_calibration(tmp_path / "force.json")
     assert (made.sensor, made.unit, made.source) == (
@@ -445,26 +451,28 @@ STOPPED = {
 
 
 @pytest.mark.parametrize("name", STOPPED)
-def test_a_calibration_that_is_stopped_under_force_leaves_nothing_pressed(name, tmp_path, capsys):
+def test_a_calibration_that_is_stopped_under_force_leaves_nothing_pressed(
+    name, egg, tmp_path, capsys
+):
     argv, number, code = STOPPED[name]
-    with EmulatorProcess("rig", "--seed", "2", "--object", "egg", "--centred") as running:
-        path, ended = tmp_path / "mine.yaml", threading.Event()
-        path.write_text(yaml.safe_dump(rig_of(running, tmp_path)))
+    path, ended = tmp_path / "mine.yaml", threading.Event()
+    path.write_text(yaml.safe_dump(rig_of(egg, tmp_path)))
+    assert egg.control.facts("world")["force_n"] == 0.0
 
-        def stop_when_it_presses():
-            while not ended.wait(0.02):
-                if running.control.facts("world")["force_n"] > 0.1:
-                    os.kill(os.getpid(), number)
-                    return
+    def stop_when_it_presses():
+        while not ended.wait(0.02):
+            if egg.control.facts("world")["force_n"] > 0.1:
+                os.kill(os.getpid(), number)
+                return
 
-        watcher = threading.Thread(target=stop_when_it_presses)
-        watcher.start()
-        try:
-            assert main([*argv, "--rig", str(path)]) == code, capsys.readouterr().err
-        finally:
-            ended.set()
-            watcher.join()
-        assert running.control.facts("world")["force_n"] == 0.0
+    watcher = threading.Thread(target=stop_when_it_presses)
+    watcher.start()
+    try:
+        assert main([*argv, "--rig", str(path)]) == code, capsys.readouterr().err
+    finally:
+        ended.set()
+        watcher.join()
+    assert egg.control.facts("world")["force_n"] == 0.0
 
 
 @pytest.mark.slow

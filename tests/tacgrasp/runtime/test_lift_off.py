@@ -29,7 +29,7 @@ SEED = 5
 SIDE_M = np.array([0.025, 0.0, 0.0])
 
 
-def lifted_off(part, sensor="taxels", limit_n=None, lift_off_mm=1.0):
+def lifted_off(part, sensor="taxels", limit_n=None, lift_off_mm=1.0, lift_mm=40.0):
     """A fruit gripped with a part of what holds its weight, after its lift-off."""
     config = RunConfig(**{**dict(load("fruit")[0]), "sensor": sensor, "seed": SEED})
     rig = build("fruit", SEED, sensor_name=sensor, start_offset_mm=(0.0, 0.0))
@@ -45,7 +45,7 @@ def lifted_off(part, sensor="taxels", limit_n=None, lift_off_mm=1.0):
     force_n = rig.truth().force_n
     felt = Interval(value=force_n, low=0.8 * force_n, high=1.2 * force_n)
     before = replace(read_observation(rig, None), felt_force_n=felt)
-    verify = config.verify.model_copy(update={"lift_off_mm": lift_off_mm})
+    verify = config.verify.model_copy(update={"lift_off_mm": lift_off_mm, "lift_mm": lift_mm})
     found = lift_off(rig, steps, verify, contract, before, SIDE_M)
     return rig, found, least_n
 
@@ -132,16 +132,16 @@ def test_after_a_rock_the_force_is_raised_by_the_way_that_it_slid(slides_mm, is_
 
 
 def test_a_grip_that_may_not_grow_is_reported_and_nothing_falls():
-    rig, found, least_n = lifted_off(0.5, limit_n=0.55 * 0.2)
-    assert "still slips 10 mm above" in found.problem
+    rig, found, least_n = lifted_off(0.5, limit_n=0.55 * 0.2, lift_off_mm=0.5)
+    assert "still slips 5 mm above" in found.problem
     assert not rig.grasp.hangs
     assert not rig.truth().dropped
     assert rig.truth().peak_force_n <= least_n
 
 
 def test_a_lift_off_goes_no_higher_than_the_lift():
-    rig, _, _ = lifted_off(0.3, limit_n=0.05, lift_off_mm=9.0)
-    assert rig.arm.pose().position_m[2] < 0.24
+    rig, _, _ = lifted_off(0.3, limit_n=0.05, lift_off_mm=4.0, lift_mm=10.0)
+    assert rig.arm.pose().position_m[2] < 0.21
     assert not rig.truth().dropped
 
 

@@ -1,6 +1,7 @@
 """``tacgrasp train queries``: what it draws, that it learns, and that it goes on after a stop."""
 
 import json
+import shutil
 
 import pytest
 import torch
@@ -51,6 +52,9 @@ def test_it_learns_and_goes_on_where_it_stopped(tmp_path):
 
     train(request("whole", STEPS), Console(quiet=True))
     whole = load_classifier(tmp_path / "whole")
+    (drawn,) = (tmp_path / "whole" / ".training").glob("questions-*.tsv")
+    (tmp_path / "stopped" / ".training").mkdir(parents=True)
+    shutil.copy(drawn, tmp_path / "stopped" / ".training")  # the same are drawn: tested above
     stage = query_classifier.Stage
 
     class StoppedError(Exception):

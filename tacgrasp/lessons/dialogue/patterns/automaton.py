@@ -10,9 +10,9 @@ Patterns have no recursion, so the automaton has no circle and its language is f
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
-from functools import cache, cached_property
-from typing import NamedTuple
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from functools import cache, cached_property, reduce
+from operator import or_
 
 from tacgrasp.lessons.dialogue.patterns.pattern import (
     Bound,
@@ -20,22 +20,60 @@ from tacgrasp.lessons.dialogue.patterns.pattern import (
     ListSlot,
     Literal,
     Node,
+    NumberSlot,
     OneOf,
     literal_words,
 )
 from tacgrasp.lessons.dialogue.plain_words import NUMBER
 
 
-class _State(NamedTuple):
-    """A state, with the arcs that leave it: one that takes a word, or some that take none.
+class _States:
+    """States, each of them once, with the arcs that leave it.
+
+    They are one that takes a word, or some that take none.
 
     Attributes:
-        label: A word, ``NUMBER`` or the name of a class; '' where the arcs take no word.
-        targets: States that the arcs lead to.
+        labels: By state a word, ``NUMBER`` or the name of a class; '' where its arcs take no word.
+        targets: By state the states that its arcs lead to.
+        next_bits: By state the bits of the labels that may come next; that of '' at the end.
+        bits: The bit of each label; '' stands for the end.
+        classes: The words of each class.
+        end: The state in which wordings end.
     """
 
-    label: str
-    targets: tuple[int, ...]
+    def __init__(self) -> None:
+        self.labels = [""]
+        self.targets: list[tuple[int, ...]] = [()]
+        self.next_bits = [1]
+        self.bits = {"": 1}
+        self.classes: dict[str, frozenset[str]] = {}
+        self.end = 0
+        self._words: dict[tuple[str, int], int] = {}
+        self._choices: dict[tuple[int, ...], int] = {}
+
+    def word(self, label: str, target: int) -> int:
+        """The state that takes a word, before another one."""
+        key = label, target
+        number = self._words.get(key)
+        if number is None:
+            number = self._words[key] = len(self.labels)
+            self.labels.append(label)
+            self.targets.append((target,))
+            self.next_bits.append(self.bits.setdefault(label, 1 << len(self.bits)))
+        return number
+
+    def either(self, starts: Iterable[int]) -> int:
+        """The state that is before any of some others."""
+        different = tuple(dict.fromkeys(starts))
+        if len(different) == 1:
+            return different[0]
+        number = self._choices.get(different)
+        if number is None:
+            number = self._choices[different] = len(self.labels)
+            self.labels.append("")
+            self.targets.append(different)
+            self.next_bits.append(reduce(or_, (self.next_bits[each] for each in different), 0))
+        return number
 
 
 class Automaton:
@@ -49,82 +87,101 @@ class Automaton:
     """
 
     def __init__(self, node: Node) -> None:
-        self._states: list[_State] = []
-        self.classes: dict[str, frozenset[str]] = {}
+        self._states = _States()
+        self._known_bits: dict[str, int] = {}
         self._known_behind: dict[int, frozenset[int]] = {}
-        self._known_takers: dict[str, frozenset[int]] = {}
-        self._known_after: dict[tuple[str, ...], frozenset[int]] = {}
-        builder = _Builder(self._states, self.classes)
-        self._end = builder.state("", ())
-        self._start = builder.build(node, self._end)
+        self._known_before_last: dict[tuple[str, ...], frozenset[int]] = {}
+        self._start = _Builder(self._states).build(node, self._states.end)
 
     def __len__(self) -> int:
-        return len(self._states)
+        return len(self._states.labels)
 
     @cached_property
-    def _with_label(self) -> Mapping[str, frozenset[int]]:
-        """The states that take a word, by their label."""
-        found: dict[str, list[int]] = {}
-        for number, state in enumerate(self._states):
-            if state.label:
-                found.setdefault(state.label, []).append(number)
-        return {label: frozenset(numbers) for label, numbers in found.items()}
+    def _past(self) -> Mapping[int, tuple[frozenset[int], int]]:
+        """By the bit of a label what its states lead to, and the labels that may come next."""
+        found: dict[int, set[int]] = {}
+        states = self._states
+        for label, bit, targets in zip(
+            states.labels, states.next_bits, states.targets, strict=True
+        ):
+            if label:
+                found.setdefault(bit, set()).update(targets)
+        return {
+            bit: (frozenset(targets), reduce(or_, (states.next_bits[each] for each in targets)))
+            for bit, targets in found.items()
+        }
 
-    def _takers(self, word: str) -> frozenset[int]:
-        """The states that take a word, as itself or as one of a class."""
-        known = self._known_takers.get(word)
+    def _bits(self, word: str) -> int:
+        """Bits of the labels that take a word: itself, and the classes that it is one of."""
+        known = self._known_bits.get(word)
         if known is None:
-            labels = [word, *(label for label, words in self.classes.items() if word in words)]
-            found = (self._with_label.get(label, frozenset()) for label in labels)
-            known = self._known_takers[word] = frozenset().union(*found)
+            bits = self._states.bits
+            labels = [label for label, words in self._states.classes.items() if word in words]
+            known = reduce(or_, (bits[label] for label in labels), bits.get(word, 0))
+            self._known_bits[word] = known
         return known
 
     def _behind(self, state: int) -> frozenset[int]:
         """States that take a word, or end, and are reached from a state without a word."""
         known = self._known_behind.get(state)
         if known is None:
-            label, targets = self._states[state]
-            is_last = bool(label) or state == self._end
-            known = frozenset([state]) if is_last else self._closure(targets)
+            is_last = bool(self._states.labels[state]) or state == self._states.end
+            known = frozenset([state]) if is_last else self._closure(self._states.targets[state])
             self._known_behind[state] = known
         return known
 
     def _closure(self, states: Iterable[int]) -> frozenset[int]:
         return frozenset().union(*map(self._behind, states))
 
-    def _past(self, takers: Iterable[int]) -> frozenset[int]:
-        """States that take a word, or end, once some states have taken theirs."""
-        return self._closure({self._states[taker].targets[0] for taker in takers})
+    def _before(self, bits: int, states: Iterable[int]) -> frozenset[int]:
+        """Those of some states behind which one of some labels may come next."""
+        next_bits = self._states.next_bits
+        return frozenset(state for state in states if next_bits[state] & bits)
 
-    def _ways(self, words: Sequence[str]) -> list[frozenset[int]] | None:
-        """By word the states that take it behind those before, and the end; None if it is missed.
-
-        A state may be among them from which the words that follow are not taken.
-        """
-        if not self.vocabulary.issuperset(words):
-            return None
-        ways, states = [], self._behind(self._start)
-        for word in words:
-            ways.append(states & self._takers(word))
-            states = self._past(ways[-1])
-        return [*ways, frozenset([self._end])] if self._end in states else None
+    def _taken(self, bits: int, states: Iterable[int]) -> set[int]:
+        """What some states lead to with one word of some labels."""
+        labels, targets = self._states.labels, self._states.targets
+        pending, seen, found = list(states), set(states), set[int]()
+        while pending:
+            state = pending.pop()
+            if labels[state]:
+                found.update(targets[state])
+                continue
+            new = self._before(bits, targets[state]) - seen
+            seen |= new
+            pending += new
+        return found
 
     def accepts(self, words: Sequence[str]) -> bool:
         """Whether a wording, in plain words, may be produced."""
-        return self._ways(words) is not None
+        if not self.vocabulary.issuperset(words):
+            return False
+        first, *later = *map(self._bits, words), self._states.bits[""]
+        states, taken = self._before(first, [self._start]), first
+        for bits in later:
+            states, taken = self._before(bits, self._taken(taken, states)), bits
+        return bool(states)
 
     def has_run(self, words: Sequence[str]) -> bool:
         """Whether some words, one after another, occur anywhere in a wording."""
-        return self.vocabulary.issuperset(words) and bool(self._after(tuple(words)))
+        if not self.vocabulary.issuperset(words):
+            return False
+        return len(words) < 2 or bool(self._before_last(tuple(words)))
 
-    def _after(self, words: tuple[str, ...]) -> frozenset[int]:
-        """States that take a word, or end, behind some words that begin anywhere."""
-        known = self._known_after.get(words)
-        if known is None:  # from any state, since each lies on a way from the start to the end
-            takers = self._takers(words[-1])
-            if len(words) > 1:
-                takers &= self._after(words[:-1])
-            known = self._known_after[words] = self._past(takers)
+    def _before_last(self, words: tuple[str, ...]) -> frozenset[int]:
+        """States behind all but the last of some words, which begin anywhere, and before the last.
+
+        They begin at any state, since each lies on a way from the start to the end.
+        """
+        known = self._known_before_last.get(words)
+        if known is None:
+            *first, taken, last = map(self._bits, words)
+            if first:
+                behind = self._taken(taken, self._before_last(words[:-1]))
+            else:
+                past = (self._past[bit] for bit in _single(taken))
+                behind = set().union(*(states for states, following in past if following & last))
+            known = self._known_before_last[words] = self._before(last, behind)
         return known
 
     def num_wordings(self, most: int) -> int:
@@ -135,10 +192,10 @@ class Automaton:
 
         def count(states: frozenset[int], room: int) -> int:
             targets: dict[str, set[int]] = {}
-            for state in (self._states[each] for each in states):
-                if state.label:
-                    targets.setdefault(state.label, set()).update(state.targets)
-            found = int(self._end in states)
+            for state in states:
+                if label := self._states.labels[state]:
+                    targets.setdefault(label, set()).update(self._states.targets[state])
+            found = int(self._states.end in states)
             for each in targets.values():
                 if found >= room:
                     break
@@ -150,71 +207,64 @@ class Automaton:
     @cached_property
     def vocabulary(self) -> frozenset[str]:
         """All words of its wordings; ``NUMBER`` where they have numbers."""
-        words = frozenset(state.label for state in self._states) - {"", *self.classes}
-        return words.union(*self.classes.values())
+        classes = self._states.classes
+        return frozenset(self._states.bits.keys() - {"", *classes}).union(*classes.values())
+
+
+def _single(bits: int) -> Iterator[int]:
+    """The bits that are set, one by one."""
+    while bits:
+        yield bits & -bits
+        bits &= bits - 1
 
 
 class _Builder:
-    """Builds the states of a pattern, each of them once.
+    """Builds the states of a pattern.
 
     Args:
         states: Receives the states.
-        classes: Receives the words of each class.
     """
 
-    def __init__(self, states: list[_State], classes: dict[str, frozenset[str]]) -> None:
-        self._states, self._classes = states, classes
-        self._numbers: dict[_State, int] = {}
+    def __init__(self, states: _States) -> None:
+        self._states = states
         self._built: dict[tuple[int, int], int] = {}
-
-    def state(self, label: str, targets: tuple[int, ...]) -> int:
-        """The number of a state."""
-        state = _State(label, targets)
-        if state not in self._numbers:
-            self._numbers[state] = len(self._states)
-            self._states.append(state)
-        return self._numbers[state]
 
     def build(self, node: Node, end: int) -> int:
         """The state from which a node leads to another state."""
+        if isinstance(node, Literal):
+            for word in reversed(literal_words(node.text)):
+                end = self._states.word(word, end)
+            return end
+        if isinstance(node, Chain):
+            for part in reversed(node.parts):
+                end = self.build(part, end)
+            return end
+        if isinstance(node, Bound):
+            return self.build(node.part, end)
+        if isinstance(node, NumberSlot):
+            return self._states.word(NUMBER, end)
         key = (id(node), end)
         if key not in self._built:
-            self._built[key] = self._before(node, end)
+            self._built[key] = self._states.either(self._starts(node, end))
         return self._built[key]
 
-    def _before(self, node: Node, end: int) -> int:
-        match node:
-            case Literal(text):
-                for word in reversed(literal_words(text)):
-                    end = self.state(word, (end,))
-                return end
-            case ListSlot(name, entries):
-                return self._list(name, entries, end)
-            case Chain(parts):
-                for part in reversed(parts):
-                    end = self.build(part, end)
-                return end
-            case OneOf(parts, optional):
-                starts = [self.build(part, end) for part in parts]
-                return self._either([*starts, end] if optional else starts)
-            case Bound(_, _, part):
-                return self.build(part, end)
-        return self.state(NUMBER, (end,))
+    def _starts(self, node: OneOf | ListSlot, end: int) -> list[int]:
+        """The states from which each way through a node leads to another state."""
+        if isinstance(node, ListSlot):
+            return self._list(node.name, node.entries, end)
+        starts = [self.build(part, end) for part in node.parts]
+        return [*starts, end] if node.optional else starts
 
-    def _either(self, starts: Sequence[int]) -> int:
-        different = tuple(dict.fromkeys(starts))
-        return different[0] if len(different) == 1 else self.state("", different)
-
-    def _list(self, name: str, entries: Sequence[str], end: int) -> int:
+    def _list(self, name: str, entries: Sequence[str], end: int) -> list[int]:
         starts = []
         for length, classes in _classes(tuple(entries)).items():
             at = end
             for place, words in reversed(list(enumerate(classes))):
                 label = f"<{name} {place + 1} of {length}>"
-                self._classes[label] = words
-                at = self.state(label, (at,))
+                self._states.classes[label] = words
+                at = self._states.word(label, at)
             starts.append(at)
-        return self._either(starts)
+        return starts
 
 
 @cache

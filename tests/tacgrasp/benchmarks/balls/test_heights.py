@@ -11,6 +11,7 @@ from cltp.errors import TouchError
 from cltp.sensing.calibration import load_calibration
 from cltp.sensing.touch_files import read_cloud
 from cltp.tactile.sensors import SENSORS
+from cltp.train.photometric import calibrate
 from cltp.train.photometric.calibrate import train_gradients
 from tacgrasp.__main__ import main
 from tacgrasp.benchmarks.balls import heights as bench_balls
@@ -26,10 +27,12 @@ BALLS = SHARED_DATA / "gelsight_mini_balls"
 @pytest.fixture(scope="module")
 def calibrated(folder, tmp_path_factory):
     out = tmp_path_factory.mktemp("out") / "mine.safetensors"
-    assert main(
-        ["calibrate", "gelsight-mini", "--balls", str(folder), "--diameter-mm", "6",
-         "--out", str(out), "--unit", "mine", "--date", "2026-01-31"]
-    ) == 0  # fmt: skip
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(calibrate, "train_gradients", partial(train_gradients, steps=200))
+        assert main(
+            ["calibrate", "gelsight-mini", "--balls", str(folder), "--diameter-mm", "6",
+             "--out", str(out), "--unit", "mine", "--date", "2026-01-31"]
+        ) == 0  # fmt: skip
     return out
 
 
