@@ -7,6 +7,7 @@ from typing import Literal
 
 from policies.instructions.english import words as english
 from policies.instructions.english.denials import NO_CASE
+from policies.instructions.quantities.calculations import WORKED_OUT
 from policies.instructions.quantities.force import MARK, Force, Kind
 from policies.instructions.quantities.outcomes import EarlierGrip, is_again, outcome
 from policies.instructions.quantities.relations import NOT, relation
@@ -54,6 +55,8 @@ def read_forces(text: str) -> tuple[list[Force], str, str]:
     became: Literal["least", "most"] | None = None  # what the force before is by its outcome
     for start, stop, ends, within_n in force_spans(text):
         left, right = text[end:start], text[stop:]
+        is_worked_out = left.rstrip().endswith(WORKED_OUT)
+        left = left.replace(WORKED_OUT, " ").rstrip() + " " if is_worked_out else left
         words = text[start:stop].strip()
         said = outcome(f"{left.rstrip()} at" if _WITHIN.match(words) else left, right)
         if said is None and became and is_again(left, right):
@@ -110,7 +113,10 @@ def read_forces(text: str) -> tuple[list[Force], str, str]:
                     if kind == "value":
                         kind = _kind_corrected([force for force, _ in found])
                     found = [(force, False) for force, _ in found]
-            kept = not (_PAST.search(clause) or is_denied)
+            if is_worked_out and kind == "value":
+                is_denied = False
+                found = [(f, kept and (f.is_told or f.kind != "value")) for f, kept in found]
+            kept = is_worked_out or not (_PAST.search(clause) or is_denied)
             is_taken_back = bool(_TAKEN_BACK.match(text[stop:]))
             if is_taken_back or (kind == "value" and _NOT_WITH.search(left)):
                 denied, kept = words, kept and not is_taken_back
