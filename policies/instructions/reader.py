@@ -9,6 +9,7 @@ from policies.instructions.english import words
 from policies.instructions.english.spelling import spelled
 from policies.instructions.english.text import plain, sentences
 from policies.instructions.manner import Manner, has_manner, read_manner
+from policies.instructions.own_work import without_own_work
 from policies.instructions.quantities import Quantities, read_quantities
 from policies.instructions.refusal import refusal_of
 
@@ -42,7 +43,7 @@ _ENGLISH, _FOREIGN = words.word_list("english"), words.word_list("foreign")
 _OFF = re.compile(rf"\b{words.any_of('off_domain')}\b")
 _HOLD = re.compile(rf"\b{words.any_of('hold')}\b")
 _OURS = re.compile(
-    r"\b(?:straw ?berr(?:y|ies)|berr(?:y|ies)|fruits?|grips?|grasps?|squeeze|fingers|gripper)\b"
+    r"\b(?:straw ?berr(?:y|ies)|berr(?:y|ies)|fruits?|grips?|grasps?|squeeze|fingers|gripper|compression|clamping|pinch(?:ing)?)\b"
 )
 _THING = re.compile(
     r"\b(straw ?berr(?:y|ies)|berr(?:y|ies)|fruit|tomato|egg|peg|object|thing|sample|specimen|one)\b"
@@ -78,7 +79,7 @@ _THIS_WHILE = re.compile(
 _USUAL_GRIP = re.compile(
     r"\b(?:no|without(?: any)?|nothing) (?:special|fancy|extra|particular)(?: (?:treatment|handling|care|grip|attention|measures?|instructions?|wishes|requests?|requirements?))?(?=[.,;:!]| (?:for|with|about|here|needed|required|please|today|this time)\b|$)|"
     r"\bwhatever (?:force|grip|squeeze|pressure)? ?(?:you think )?(?:is |seems )?(?:right|best|needed|necessary|fit|appropriate)\b|"
-    r"\b(?:standard|usual|normal|regular|default|same|ordinary|medium|moderate|average|everyday) (?:old |amount of |level of )?"
+    r"\b(?:standard|usual|normal|regular|default|same|ordinary|medium|moderate|average|everyday|nominal|baseline|typical|customary) (?:old |amount of |level of )?"
     r"(?:grip|grasp|hold|force|pick|strength|pressure|squeeze)\b|"
     r"\b(?:just|simply|only) (?:normal|ordinary|regular|usual)(?:ly)?\b|"
     r"^(?:please |just |do )*(?:the |it )?same(?: (?:procedure|way|thing|force|grip))? as (?:usual|before|last time|always)\b|"
@@ -86,6 +87,26 @@ _USUAL_GRIP = re.compile(
     rf"{words.any_of('neither')}|"
     r"\bas (?:hard|firm|tight|strong|soft|gent|light|careful|delicate)\w* as (?:usual|normal|before|last time|always|needed|necessary|required|it takes|you did)\b"
 )
+_RECIPE = (
+    r"(?:recipes?|profiles?|settings?|procedures?|routines?|protocols?|program(?:me)?s?|modes?|parameters|presets?|config\w*|approach|methods?|treatment|handling|values?|"
+    r"(?:grip|grasp|force|squeeze|pressure|handling|gripping|picking|clamping)(?:ping)? (?:recipe|profile|setting|procedure|routine|protocol|program(?:me)?|mode|preset|curve|schedule|level|value|parameter)s?)"
+)
+_RECIPE_ASKED = re.compile(
+    rf"^(?:(?:ok(?:ay)?|so|please|just|robot|right|again|for this one|for this|use|run|apply|stick (?:to|with)|keep (?:to|with)|go with|go back to|back to|follow|with|on|it is|same|your|the|our|my|a|good old|plain|old|execute|do)[ ,]*)*"
+    rf"(?:standard|usual|normal|regular|default|same|ordinary|nominal|baseline|stock|factory|typical|customary|established|unchanged|current|existing|everyday)(?: old| same)? {_RECIPE}"
+    r"(?=\s*(?:$|[.,;:!–—-])| (?:please|here|is|are|will|would|works|does|should|suits|for (?:this|that|the|it|me|now|today)|no|again|today|as|on|with|and|thanks|i|this)\b)"
+)
+"""'Standard recipe, no changes': recipes of cooks are asked for in other words."""
+_UNCHANGED = re.compile(
+    r"\b(?:no|without(?: any)?|zero) (?:changes?|modifications?|adjustments?|deviations?|tweaks?|alterations?)\b(?! of (?:mind|plan))|\b(?:change|alter|adjust|modify|tweak) nothing\b|"
+    r"\b(?:do not|never|no need to|without) (?:chang|alter|adjust|modify|tweak|touch)(?:e|ing)? (?:a thing|anything|any (?:of the )?(?:settings?|parameters?)|the (?:grip|force|settings?|recipe|squeeze|parameters?|way))\b(?! (?:else|but|other))|"
+    r"\bas you were(?=[.,;!]*(?:$| ))|^(?:as|like)(?: per)? (?:usual|always|normal|ever|before)\b|^same again\b|^(?:the )?usual(?=\s*(?:$|[.,;!]| please| for))|^(?:business|same) as (?:usual|always|ever|before)\b|\bsame (?:drill|deal|story|again)(?: as (?:ever|always|usual|before))?(?=\s*(?:$|[.,;!]| please| for))|"
+    r"(?:^|[,;:–-] ?|\b(?:and|but|then) )(?:it is |do it |just |exactly |much )*(?:the )?same(?: (?:procedure|way|thing|force|grip))? as (?:usual|before|last time|always|ever|the (?:last|previous|others?|rest))\b"
+)
+_NEXT = re.compile(
+    r"^(?:(?:right|ok(?:ay)?|now|and|so|then|good|great|well|please|robot|hey|on to|onto|bring on|let us have|ready for|time for|the|that is the) ?,? )*(?:next(?: up)?|another|one more|same again|and again|once more|again)(?: (?:the|big|small|red|ripe|little|good|straw|berry|strawberry|fruit|one|please|up|now|time|in line|in the row|in the (?:tray|punnet|box|queue))){0,4}(?=\s*(?:$|[,;:!–—-]))"
+)
+"""'Next one, ...'."""
 _SHORT = re.compile(
     r"^(?=.*(?:berry|fruit|usual|standard|default|next|again|another|one more))(?:(?:the|that|this|a|one|red|ripe|next|straw|berry|strawberry|fruit|please|up|now|ok|okay|alright|right|good|yo|hey|robot|go|and|then|usual|normal|standard|default|same|again|another|once|more|pick-?up|pick|grasp|lift)[ ,!.]*)+$"
 )
@@ -151,8 +172,10 @@ def _nothing_asked(numbers: Quantities) -> str:
         return "it is a question, no request to hold anything"
     if numbers.masses.is_told:
         return ""
-    for sentence in asked:
-        if _KEEP.search(sentence) or _THIS_WHILE.match(sentence) or _USUAL_GRIP.search(sentence):
+    for sentence in map(without_own_work, asked):
+        if _KEEP.search(sentence) or _THIS_WHILE.match(sentence):
+            return ""
+        if any(p.search(sentence) for p in (_USUAL_GRIP, _RECIPE_ASKED, _UNCHANGED)):
             return ""
         is_off = _OFF.search(sentence) and not _OURS.search(sentence) and not _grips(sentence)
         starts_off = re.match(
@@ -167,6 +190,7 @@ def _nothing_asked(numbers: Quantities) -> str:
             or _BERRY_VERB.match(sentence)
             or _VERB_OBJECT.search(sentence)
             or _SHORT.match(sentence)
+            or _NEXT.match(sentence)
         ):
             return ""
     return "no request to hold anything was understood"

@@ -8,6 +8,7 @@ from policies.instructions.english import words
 from policies.instructions.english.denials import is_denied
 from policies.instructions.english.text import CLAUSE, sentences
 from policies.instructions.manner import has_manner, without_neutral
+from policies.instructions.own_work import without_bodies, without_own_work
 from policies.instructions.prohibitions import prohibition
 from policies.instructions.quantities import MARK
 
@@ -22,6 +23,20 @@ _ASKS = re.compile(
 )
 _OBJECT = r"(?: (?:it|this|that|the|them|these|those|him|her|my|a|an|some|every\w*|all|your|our|berry|strawberry|fruit|like|flat|down|up|apart|in|into|to)\b|(?=[.!,;]*$)| and\b| or\b)"
 _DESTROY_VERB = re.compile(rf"\b{words.any_of('destroy')}(?:n?ing|t?ing|p?ing)?\b{_OBJECT}")
+_MEANWHILE = re.compile(
+    r"\b(?:while|whilst|busy|still|after|finish\w*|been|from|started|back to|halfway through|done|keep|kept|time|i am|we are)\s*$"
+)
+_OURS = re.compile(
+    r"\b(?:it|this|that|these|those|them|one|(?<!other )fruits?|(?<!other )(?:straw ?)?berr(?:y|ies)|specimen|sample|object|thing|robot|gripper|sensor)\b"
+)
+_CARRIED = re.compile(
+    r"\b(?:wheel|carry|push|roll|lift|drag|move|haul|shove|slide|trundle|cart|take|bring|get|manoeuvre|bump)\w* (?:(?:the|this|a|my|our|whole|entire|big|heavy|full|all) ){0,4}"
+    r"(?:tables?|trolleys?|carts?|bench(?:es)?|rigs?|bases?|pallets?|machines?|stands?|crates?|box(?:es)?|wheelbarrows?|barrows?|prams?|trays?|sofas?|cabinets?|racks?|frames?|setup|lot|contraption|robot|unit|cell)"
+    r" (?:over|past|beyond|across|through) (?:the|that|a|this) (?:\w+ )?(?:thresholds?|boundar(?:y|ies)|barriers?|stops?|guard ?rails?)\b(?! (?:force|of))|"
+    r"\b(?:step|trip|stumbl|walk|climb|hop|jump|tripp|stepp|hopp)\w* (?:over|past|across|on) (?:the|that|a) (?:\w+ )?(?:thresholds?|boundar(?:y|ies)|barriers?|stops?|guard ?rails?)\b|"
+    r"\bthresholds? (?:of|to|into) (?:the|a|my|our) (?:\w+ )?(?:door\w*|room|kitchen|lab\w*|house|barn|shed|greenhouse|hall|office)\b|\bdoor(?:way)? thresholds?\b"
+)
+"""What is carried over a threshold of a door sets no limit aside."""
 _DESTROY_PHRASES = words.groups("destroy_phrase")
 _HARM = words.groups("harm_phrase")
 _OVERRIDE = words.groups("override")
@@ -29,10 +44,26 @@ _RELEASE = words.groups("release")
 _HANDOVER, _PUT_DOWN = words.any_of("handover"), words.any_of("put_down")
 _STOP = words.groups("stop")
 _FORCE_NOUN = re.compile(r"\b(?:force|grip|pressure|squeeze|squeezing|tension)\b")
+_CLEAR_OF = re.compile(
+    r"(?:(?:keep|steer|stay)(?: well| far)? clear|(?:keep|stay|back)(?: well| far)? away|keep (?:off|your distance)|hands off) (?:of|from) (?:#|(?:that|this|those|these|the|any|such)"
+    r"(?=\s*(?:$|[.,;!]))|(?:that|this|those|these|the|any|such)(?: \w+)? (?:figures?|values?|numbers?|forces?|levels?|regions?|zones?|range|marks?|limits?|thresholds?|areas?|territory|territories|settings?|pressures?|newtons?|readings?|regime)\b)"
+)
 _WEAK_STOP = re.compile(
     r"\b(?:wait|stay|leave it there|remain|pause|stand by|hold (?:it )?there)\b|^not move"
 )
 _HOLD = re.compile(rf"\b{words.any_of('hold')}\b")
+_STOP_FIRST = re.compile(
+    r"(?:please|robot|hey|oi|no|ok|okay|just|now|you|oh|right|whoa|woah|quick|quickly|for \w+'?s? sake|sorry|god|everybody|everyone|eek|argh|er|um|[,!. ])*"
+    r"\b(?:(?:full |dead |hard )?stop|halt|freeze|pause|abort|desist|hold (?:it|up|everything|fire|your horses)|hang (?:on|fire)|whoa|woah|wait|time ?out|stand (?:by|down|still)|(?:stay|keep|hold|stop|remain) (?:still|put|there|where you are|right there|back|clear|out)|back off|not so fast|leave off|give me (?:a|one|two|half a|a couple of) (?:sec\w*|minutes?|moments?|mo|ticks?)|let go|get (?:back|off|out of (?:there|the way|it))|quit it|cut it out)\b"
+    r"(?: (?:right |just |over |up )?(?:there|here|now|where you are|what you are doing|that|moving|still|everything|please|at once|immediately|dead|this (?:instant|minute|second)|(?:for )?(?:a|one|half a|two) (?:sec\w*|minutes?|moments?|mo|tick)|a bit|robot|it|all|on|mate|pal|love|dear))*"
+    r"(?: ?[,;:!.–—…-]+ ?| (?=(?:because|since|as|before|while|whilst|until|till|i|we|so i|so we|for i|or (?:i|you|we))\b))(?P<rest>.*)"
+)
+"""A text that begins with a stop, and goes on with the reason for it."""
+_CORRECTION = re.compile(rf"\b{words.any_of('correction')}\b")
+_USUAL = re.compile(r"\b(?:usual|normal|standard|default|same|next|another|always)\b")
+_ORDER = re.compile(
+    rf"^(?:please|now|just|then|and|so|robot|instead|you can|can you|could you|i want you to|i would like you to|carefully|ok(?:ay)?|go and|let us| )*(?:{words.any_of('hold')}|use|make (?:it|that)|go (?:with|for|to|ahead|on)|try|set|give it|continue|carry on|proceed|resume)\b"
+)
 
 
 def refusal_of(text: str, whole: str = "") -> str:
@@ -79,6 +110,7 @@ def _clauses(text: str) -> list[str]:
 
 
 def _sets_limits_aside(text: str) -> str:
+    text = _CARRIED.sub(" ", text)
     for pattern in _OVERRIDE:
         for match in pattern.finditer(text):
             before = re.split(r"[.,;!?]", text[: match.start()])[-1]
@@ -89,7 +121,7 @@ def _sets_limits_aside(text: str) -> str:
 
 def _harms(text: str) -> str:
     for sentence, _ in sentences(text):
-        plain = re.sub(_HANDOVER, " ", sentence)
+        plain = re.sub(_HANDOVER, " ", without_bodies(sentence))
         for pattern in _HARM:
             for match in pattern.finditer(plain):
                 before = re.split(r"[,;]", plain[: match.start()])[-1]
@@ -101,7 +133,7 @@ def _harms(text: str) -> str:
 
 
 def _destroys(text: str) -> str:
-    for clause in _clauses(text):
+    for clause in _clauses(without_own_work(text)):
         for pattern in _DESTROY_PHRASES:
             if (match := pattern.search(clause)) and not is_denied(
                 clause[: match.start()], clause[match.end() :]
@@ -118,6 +150,8 @@ def _destroys(text: str) -> str:
                 continue
             if _MODAL.search(before) and not _ASKS.search(before):
                 continue
+            if _MEANWHILE.search(before) and not _OURS.search(match.group() + behind):
+                continue  # 'while chopping the others'
             return match.group().strip()
     return ""
 
@@ -148,7 +182,23 @@ def _releases(text: str) -> str:
     return ""
 
 
+def _stops_first(text: str) -> str:
+    """The stop with which a text begins, where it goes on with nothing to be done; '' for none."""
+    match = _STOP_FIRST.match(text)
+    if match is None:
+        return ""
+    rest = match["rest"]
+    clauses = re.split(r"[,;:.!?–—]\s*|\s-\s|\b(?:but|then|and)\b", rest)
+    is_order = any(_ORDER.match(clause.strip()) for clause in clauses)
+    is_taken_back = _CORRECTION.search(text) and MARK in text
+    if is_order or is_taken_back or MARK in rest or has_manner(rest) or _USUAL.search(rest):
+        return ""
+    return text[: match.start("rest")].strip(" ,;:.!-–—…")
+
+
 def _stops(text: str) -> str:
+    if found := _stops_first(text):
+        return found
     for sentence, _ in sentences(text):
         for pattern in _STOP:
             for match in pattern.finditer(sentence):
@@ -159,6 +209,8 @@ def _stops(text: str) -> str:
                 )
                 if is_after:
                     continue  # 'grip it and wait'
+                if _CLEAR_OF.match(sentence[match.start() :]) and MARK in text:
+                    continue  # 'keep clear of that figure'
                 if (
                     not re.search(r"\bto\s*$", before)
                     and not is_denied(before)

@@ -19,6 +19,8 @@ _CONTRACTIONS = (
     (r"\b(you|we|they)['’]re\b", r"\1 are"),
     (r"\bi['’]m\b", "i am"),
     (r"\b(it|that|there|this|one|he|she|what|who|here)['’]s\b", r"\1 is"),
+    (r"\bd['’]?y(?:ou|a)\b", "do you"),
+    (r"\by['’](?=think|know|reckon)", "you "),
     (r"\bw/o\b", "without"),
     (r"\bw/", "with "),
     (r"\bgonna\b", "going to"),

@@ -56,14 +56,12 @@ BEFORE_BOUND = rf"(?:\b{_BOUND}{_ROUGHLY}|[<>≤≥])\s*[:=]?\s*"
 BEFORE_VALUE = rf"\b{_VALUE}{_ROUGHLY}\s*[:=]?\s*"
 """What stands before a number that is a force."""
 _BEFORE = rf"(?:{BEFORE_BOUND}|{BEFORE_VALUE})"
-_AFTER = r"(?=\s*(?:$|[.,;:!?)](?![\d.])|(?:and|but|or|yet|please|then|(?:will|would)(?= (?:bruis|crush|hurt|damag|slip|break|squash))|is|bruis\w*|crush\w*|at (?:the )?(?:most|least)|max(?:imum)?|min(?:imum)?)\b))"
+_AFTER = r"(?=\s*(?:$|[.,;:!?)](?![\d.])|(?:and|but|or|yet|please|then|(?:will|would)(?= (?:bruis|crush|hurt|damag|slip|break|squash))|is|bruis\w*|crush\w*|at (?:the )?(?:most|least)|max(?:imum)?|min(?:imum)?|for (?:me|us|now|this|that|today|the (?:berry|strawberry|fruit))|while|whilst|because|since|until|till|today|tonight|this time|thanks?|thank you|cheers|mate|love|dear|pal|when i|as i|if you)\b))"
 _HALVES = (
     re.compile(rf"(?<!in )(?:\ban? |\b1 )?\bhalf(?= ?(?:-|–|to|and|or|up to) {_ONE})"),
     re.compile(rf"(?<=(?:than|nder|over|elow|bove|most|east) )(?:an? )?half{_AFTER}"),
 )
-_HELD_AT = (
-    r"\b(?:hold|grip|squeeze|press|grasp|clamp|pinch)(?: it| this| that| the \w+)? (?:at|to) "
-)
+_HELD_AT = r"\b(?:(?:hold|grip|squeeze|press|grasp|clamp|pinch)(?: it| this| that| the \w+)? (?:at|to)|(?:set|put|keep|have|leave|run|try|make|dial|fix|peg|stick|whack|bring|turn|adjust|tune|ramp|crank|bump|give)(?: it| this| that| the \w+)?(?: up| down| in)? (?:at|to)|(?:go|going) (?:with|for|at|to)) "
 _QUANTITY = re.compile(
     rf"{NUMBER}\s*-?\s*(?:(?P<force>(?:{UNIT})\b)|mm\b|cm\b|millimet\w+|[µμu]m\b|micro\w+|%|percent\b|per cent\b)"
 )

@@ -7,6 +7,7 @@ from typing import Literal
 
 from policies.instructions.english import words as english
 from policies.instructions.english.denials import NO_CASE
+from policies.instructions.quantities.calculations import WORKED_OUT
 from policies.instructions.quantities.force import MARK, Force, Kind
 from policies.instructions.quantities.outcomes import EarlierGrip, is_again, outcome
 from policies.instructions.quantities.relations import NOT, relation
@@ -36,6 +37,18 @@ _CORRECTION = re.compile(
 )
 _TAKEN_BACK = re.compile(rf"[\s.,;:!–—-]*\b{english.any_of('correction')}[\s.!]*$")
 """Behind a force: nothing takes its place ('1 N. Scratch that.')."""
+_WRONG = (
+    r"(?:(?:got|gets|had|has|wrote|copied|read|typed|put|took|set|noted|scribbled|jotted)(?: (?:it|that|this|them|the \w+))?(?: down| up)? (?:all )?(?:wrong(?:ly)?|incorrect(?:ly)?|in error|by mistake)|"
+    r"(?:is|was|are|were|'s|looks|seems)(?: (?:just|simply|plain|clearly|definitely|totally|completely|obviously|quite|all))? (?:wrong|incorrect|mistaken|inaccurate|outdated|out of date|obsolete|rubbish|nonsense|garbage|bogus|(?:not|never) (?:right|correct|true)|an? (?:typo|mistake|misprint|error|slip|old (?:figure|value|number)))|"
+    r"made an? (?:\w+ )?(?:mistake|typo|slip|error)|(?:misread|mistyped|misprinted|mis-?wrote|miswritten|misheard|miscopied|misnoted)|"
+    r"(?:should|ought to|was meant to|is meant to|was supposed to|is supposed to)(?: really| actually| of course)? (?:be|read|say|have (?:been|read|said)))"
+)
+_WAS_WRONG = re.compile(rf"(?<!nothing )(?<!something )(?<!what )\b{_WRONG}\b")
+"""Between two forces: the second stands for the first ('he wrote 0.9 N but got it wrong, it is 0.6 N')."""
+_IS_WRONG = re.compile(
+    rf"(?:(?:,? (?:on|in|at|from|of|by|up on) (?:the |his|her|my|that)?[^\d.;,!?#]{{1,25}})?,? ?[–—-]? ?(?:(?:but|which|that|however|though|yet|only)\b[^\d.;!?#]{{0,30}}? ?)?){_WRONG}\b"
+)
+"""Behind a force that is not to be used."""
 _CONDITION = re.compile(
     r"\bif\b.*?(?=\b(?:use|hold|grip|apply|take|go|try|squeeze|press|then)\b)|\bif not\b"
 )
@@ -54,6 +67,8 @@ def read_forces(text: str) -> tuple[list[Force], str, str]:
     became: Literal["least", "most"] | None = None  # what the force before is by its outcome
     for start, stop, ends, within_n in force_spans(text):
         left, right = text[end:start], text[stop:]
+        is_worked_out = left.rstrip().endswith(WORKED_OUT)
+        left = left.replace(WORKED_OUT, " ").rstrip() + " " if is_worked_out else left
         words = text[start:stop].strip()
         said = outcome(f"{left.rstrip()} at" if _WITHIN.match(words) else left, right)
         if said is None and became and is_again(left, right):
@@ -104,14 +119,21 @@ def read_forces(text: str) -> tuple[list[Force], str, str]:
             )[0]
             clause = before + after
             is_denied = kind == "value" and bool(_DROPPED.search(left) or NOT.search(before))
+            if _WAS_WRONG.search(left) and not (found and _DROPPED.search(left)):
+                if kind == "value":
+                    kind = _kind_corrected([force for force, _ in found if not force.is_told])
+                found = [(force, kept and force.is_told) for force, kept in found]
             if _CORRECTION.search(left) or _CORRECTION.match(text[stop:].lstrip(" .,;-–—")):
                 is_denied = is_denied or not _CORRECTION.search(left)
                 if _CORRECTION.search(left):
                     if kind == "value":
                         kind = _kind_corrected([force for force, _ in found])
                     found = [(force, False) for force, _ in found]
-            kept = not (_PAST.search(clause) or is_denied)
-            is_taken_back = bool(_TAKEN_BACK.match(text[stop:]))
+            if is_worked_out and kind == "value":
+                is_denied = False
+                found = [(f, kept and (f.is_told or f.kind != "value")) for f, kept in found]
+            kept = is_worked_out or not (_PAST.search(clause) or is_denied)
+            is_taken_back = bool(_TAKEN_BACK.match(text[stop:]) or _IS_WRONG.match(text[stop:]))
             if is_taken_back or (kind == "value" and _NOT_WITH.search(left)):
                 denied, kept = words, kept and not is_taken_back
             force = Force(kind=kind, value_n=ends[0], words=words, within_n=within_n)

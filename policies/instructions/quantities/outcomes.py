@@ -33,7 +33,7 @@ _LOOSE = r"(?:away|loose|free|out|off|down)"
 _SLIPPED = (
     rf"(?:slip(?:s|ped|pe?d|page|ping)|slid(?:e?d|den|es|ing)?|falls|fell|fallen|falling|dropped|drops|dropping|tumble[sd]|escape[sd]|wobble[sd]|roll(?:s|ed)|turn(?:s|ed)|twist(?:s|ed)|rotate[sd]|shift(?:s|ed)|moved|moves|"
     rf"{_MAY} (?:be )?(?:slip(?:ped)?|slide|fall(?:en)?|drop(?:ped)?|escape|roll|turn|twist|shift|move|lose (?:it|grip|hold|contact))|"
-    rf"(?:got|gets|getting|came|comes|coming|went|goes|broke|breaks|popped|pops|wriggle[sd]|worked|flew|shot|jumped) (?:right |straight |completely )?{_LOOSE}\b(?! of\b)|"
+    rf"(?:got|gets|getting|came|comes|coming|went|goes|broke|breaks|popped|pops|wriggle[sd]|worked|flew|shot|jumped) (?:right |straight |completely )?{_LOOSE}\b(?! (?:of|(?:\w+ly )?(?:clean|fine|ok(?:ay)?|well|good|great|best|perfect\w*|nice\w*|beautiful\w*|all ?right|intact|whole|unharmed|undamaged|unmarked|unscathed|unbruised|spotless|as|on top|without|with no))\b)|"
     r"(?:loses?|lost|losing)(?: (?:my|the|its|our|all|any))? (?:it|them|grip|hold|contact|purchase|traction|the \w+)|(?:was|were|is|got|gets|been) (?:\w+ )?lost|(?:grip|grasp|hold) (?:was |is |has |had )?(?:failed|fails|broke|gave way)|"
     r"(?:could|was|were|did|has|have|had|is|does) (?:not|never)(?: \w+ly| able to| manage(?:d)? to| even| quite| really)* (?:keep hold of|hold on to|hold|held|keep|kept|lift(?:ed)?|grip(?:ped)?|carry|carried|stay(?:ed)?|stick|stuck|pick(?:ed)?)(?: (?:it|them|on|up|the \w+|there|in place|in the (?:gripper|fingers|grip)))*|"
     r"(?:was|were) unable to (?:hold|keep|lift|grip|carry|pick)(?: (?:it|them|up|the \w+))*|(?:fail(?:s|ed)|never managed) to (?:hold|keep|lift|grip|carry|pick)(?: (?:it|them|up|the \w+))*)"

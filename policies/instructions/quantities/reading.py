@@ -10,6 +10,7 @@ import re
 from dataclasses import dataclass, field
 
 from policies.instructions.quantities.bounds import with_plain_bounds
+from policies.instructions.quantities.calculations import unsure_change, worked_out
 from policies.instructions.quantities.elisions import written_out
 from policies.instructions.quantities.factors import denied_factor, read_delta, read_factor
 from policies.instructions.quantities.force import Force
@@ -87,6 +88,8 @@ def read_quantities(text: str) -> Quantities:
     text = re.sub(rf"({NUMBER}) ?\(((?:{UNIT}))\)", r"\1 \2", text)
     text = re.sub(rf"(\d)\.\s*(?=(?:{UNIT})\b)", r"\1 ", text)  # '5. N'
     text = re.sub(rf"(?<![\d.,])0 ?[.,] ?(?=\d{{1,3}}\s*-?\s*(?:{UNIT})\b)", "0.", text)  # '0. 8 N'
+    text = worked_out(text)
+    unsure = unsure_change(text)
     text, lone = without_lone(with_plain_tolerances(text))
     text = with_plain_bounds(text)
     text = _CHAIN.sub(r"between \1 and \2 \3", text)
@@ -103,6 +106,8 @@ def read_quantities(text: str) -> Quantities:
     factor, factor_words, text = read_factor(text)
     if factor is not None and not forces:
         denied = denied or denied_factor(before_factor, factor, factor_words)
+    if unsure and any(force.kind == "value" for force in forces):
+        unread = unread or f"{unsure!r} changes a force that it names; say the one that is meant"
     is_alone = factor is None and area is None
     percentage = _PERCENT_OF_NOTHING.search(text) if is_alone else None
     return Quantities(

@@ -18,7 +18,7 @@ _BELOW = re.compile(
     r"shy of|sub)(?: the| a)?\s*-?$|<\s*$"
 )
 _MOST = re.compile(
-    r"(?:\b(?:less|lower|smaller) than or equal to|\b(?:at|under|below) or (?:under|below|at)|\b(?:ends|tops out|finish\w*|finishes)(?: \w+){0,3} (?:at|before)|\bstop\w*(?: \w+){0,3} before|(?<!not )(?<!never )\bstop(?:s|ping)? (?:(?:squeez|press)ing )?at|"
+    r"(?:\b(?:less|lower|smaller) than or equal to|\b(?:at|under|below) or (?:under|below|at)|\b(?:ends|tops out|finish\w*|finishes)(?: \w+){0,3} (?:at|before)|\bstop\w*(?: \w+){0,3} before|(?<!not )(?<!never )\b(?:stop|quit|halt|cease|leave off|cut out|finish|pull up)(?:s|p?ing)?(?: \w+ing)?(?: (?:it|in|down|up|on it|on this|dead|short|the (?:berry|strawberry|fruit|fingers|jaws|gripper)))? at|"
     r"\bat (?:the )?(?:very |absolute )?most|\batmost|\bhard stop(?: at| of| is)?|\bup to|\b(?:as (?:hard|much|high|firm|far) as|no further than)|"
     r"\bmax(?:imum|imal(?:ly)?|ed)?\.?(?: \w+){0,3}?(?: of| is| at| to|:| =|=)?|"
     r"\blimit(?:s|ed|ing)?(?: \w+){0,3}?(?: to| of| at| is|:| =|=)?|"
@@ -94,8 +94,13 @@ _RISES = re.compile(
     r"\b(?:go|get|rise|raise|increase|up|ramp|climb|bring|turn|crank|squeeze|more)\b[^.;,]{0,25}\bto(?: (?:about|around|roughly))?\s*$"
 )
 _REACHED = re.compile(
-    r"\b(?:if|when|whenever|once|should|as soon as|the moment)\b(?: [\w']+){1,4} (?:reach(?:es|ed)?|feels?|sees?|measures?|hits?|gets? to|attains?|shows?|reads?|climbs? to|rises? to)\s*$"
+    r"\b(?:if|when|whenever|once|should|as soon as|the (?:moment|instant|second|minute|point (?:at which|where))|at the (?:moment|point)|by the time|the very (?:moment|instant))\b(?: [\w'-]+){1,6}? (?:reach(?:es|ed)?|feels?|sees?|measures?|hits?|gets? to|comes? to|goes to|attains?|shows?|reads?|says?|reports?|indicates?|displays?|registers?|records?|crosses|touch(?:es)?|passes|is at|are at|climbs? to|rises? to)(?: (?:about|around|roughly))?\s*$"
 )
+_STOP_ONCE = re.compile(
+    r"\b(?:stop|quit|halt|cease|freeze|finish|end|enough|cut (?:out|off|it|the)|leave off|back off|ease off|let up|hold off|pull up|call it|no (?:further|more|tighter|harder|firmer)|(?:not|never)(?: \w+){1,4}? (?:further|more|tighter|harder|firmer|any ?more))\b[^.;#\d]{0,40}$"
+)
+"""Before 'as soon as the sensor reads 1 N': what is reached ends it."""
+_NOT_STOPPED = re.compile(r"\b(?:not|never|without|no need to)(?: (?!stop)\w+){0,2} $")
 _IS_REACHED = re.compile(
     r"\s*(?:is|are|has been|was|were) (?:reached|hit|attained|there|shown|felt)\b"
 )
@@ -175,6 +180,11 @@ def _end_of_conditional_most(left: str, right: str) -> int | None:
     reaches = reached or _REACHED.search(left)
     if reaches and (_ENOUGH.match(right[cut:]) or _TOO_FAR.search(left)):
         return cut  # 'once 1 N is reached, stop'
+    if reaches:
+        once = _ONCE.search(left) if reaches is reached else reaches
+        stop = _STOP_ONCE.search(left[: once.start()]) if once else None
+        if stop and not _NOT_STOPPED.search(left[: stop.start()]):
+            return cut  # 'stop as soon as it reads 1 N'
     conditional = _CONDITION.search(re.split(r"[.;]\s", left)[-1])
     return 0 if (conditional and _RISES.search(left)) or _ONLY_IF.match(right) else None
 
