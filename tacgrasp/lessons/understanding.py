@@ -23,6 +23,8 @@ from torch import Tensor
 from cltp.llm.constrained.grammar import Grammar
 from cltp.llm.generation import Reply
 from tacgrasp.lessons.dialogue.calculations.calculated import calculated
+from tacgrasp.lessons.dialogue.choices.choosing import chosen
+from tacgrasp.lessons.dialogue.choices.own_words import in_its_words
 from tacgrasp.lessons.dialogue.conditions import check_of
 from tacgrasp.lessons.dialogue.families.catalogue import understand
 from tacgrasp.lessons.dialogue.families.misspelled import respelled
@@ -138,7 +140,7 @@ def understood_by_grammar(question: str, before: str = "") -> ReadQuestion | Non
     if meaning is None and plain != question:
         return understood_by_grammar(plain, before)
     if meaning is None and not before:
-        meaning = asked_together(question) or calculated(question)
+        meaning = chosen(question) or asked_together(question) or calculated(question)
     if meaning is None:
         return _by_other_words(question, before)
     asked = asked_text(question, before)
@@ -151,7 +153,9 @@ def understood_by_grammar(question: str, before: str = "") -> ReadQuestion | Non
         return None
     read = read_query(query, asked.numbers)
     sure = CALCULATED_CONFIDENCE if isinstance(read, Calculated) else 1.0
-    return None if read is None else _as_one(question, ReadQuestion(query, read, sure))
+    if read is None:
+        return None
+    return _in_its_words(question, _as_one(question, ReadQuestion(query, read, sure)))
 
 
 def _by_other_words(question: str, before: str) -> ReadQuestion | None:
@@ -209,12 +213,19 @@ def understood_by_model(
     if not before:
         by_model = partial(understood_by_model, writer)
         read = divided(plain, read, understood_by_grammar, by_model) or read
-    return _as_one(plain, read)
+    return _in_its_words(plain, _as_one(plain, read))
 
 
 def _as_told(query: str, words: str) -> str:
     """A query with the side and the unit that the question names; '' where it has no such unit."""
     return in_asked_unit(to_named_side(query, words), words)
+
+
+def _in_its_words(question: str, read: ReadQuestion) -> ReadQuestion:
+    """What was read, to be answered with the question's word where that names alternatives."""
+    meaning = in_its_words(question, read.meaning)
+    query = query_of(meaning) if isinstance(meaning, Calculated) else read.query
+    return read._replace(query=query, meaning=meaning)
 
 
 def _denied(read: ReadQuestion | None, question: str) -> ReadQuestion | None:

@@ -8,9 +8,11 @@ An answer that needs what nobody gave says what is missing.
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from cltp.texts.captions import with_article
+from tacgrasp.lessons.dialogue.conditions import IN_BAND
 from tacgrasp.lessons.dialogue.expression import Expression
 from tacgrasp.lessons.dialogue.facts import (
     ACTIONS,
@@ -47,6 +49,7 @@ from tacgrasp.lessons.dialogue.scene import AskedScene, Value
 
 OFF_TOPIC = "That is not about touch."
 UNKNOWABLE = "I can't feel {}."
+_BAND_TESTS = (IN_BAND, "force_n < band_low_n", "force_n > band_high_n")
 BY_NOTHING = "I can't say: it would be divided by nothing."
 
 
@@ -161,12 +164,24 @@ def _calculated(asked: Calculated, scene: AskedScene) -> Answer:
     if asked.unit is not None:
         text = value_text(float(value), asked.unit)
         return Answer(text=f"{text}.", kind=kind, value=number_in(text), unit=asked.unit)
-    if kind is AnswerKind.CHOICE:
-        return Answer(text=f"{capital(str(value))}.", kind=kind, value=value)
+    is_of_band = any(test in asked.truth for test in _BAND_TESTS)
     shown = [FACT_OF[name] for name in names_of(asked) if name in FACT_OF]
+    shown = ["force_band"] if is_of_band and kind is AnswerKind.CHOICE else shown
     clauses = [fact(name, scene)[1] for name in shown]
+    if kind is AnswerKind.CHOICE:
+        text = _chosen(str(value), clauses, Expression(asked.truth).choices)
+        return Answer(text=text, kind=kind, value=value)
     yes = "Yes" if value else "No"
     return Answer(text=f"{', '.join((yes, *clauses))}.", kind=kind, value=bool(value))
+
+
+def _chosen(word: str, clauses: list[str], choices: Sequence[str]) -> str:
+    """A word with the readings behind it, unless they name another one to choose from."""
+    others = "|".join(re.escape(choice) for choice in choices if choice != word)
+    told = ", ".join([*clauses[:-2], " and ".join(clauses[-2:])])
+    if not told or re.search(rf"\b(?:{others})\b", told, re.I):
+        return f"{capital(word)}."
+    return f"{capital(word)}: {told}."
 
 
 def _calculated_clause(asked: Calculated, scene: AskedScene) -> str:
@@ -187,6 +202,9 @@ def _which(asked: Which, scene: AskedScene) -> Answer:
         text = f"{capital(short if asked.name == 'action' else word)}."
     else:
         text = f"{capital(clause)}."
+    if asked.offered and word not in asked.offered:
+        none = "Neither" if len(asked.offered) == 2 else "None of these"
+        text = f"{none}: {text[:1].lower()}{text[1:]}"
     return Answer(text=text, kind=kind_of(asked), value=word)
 
 

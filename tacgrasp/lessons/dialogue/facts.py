@@ -57,9 +57,16 @@ UNTOUCHED_NAMES = {*UNMEASURED, "contact", "gram_n"}
 """Names that have a meaning where nothing touches."""
 
 FACT_OF: Mapping[str, str] = {
-    quantity.truth: name for name, quantity in QUANTITIES.items() if quantity.truth.isidentifier()
+    **{
+        quantity.truth: name
+        for name, quantity in QUANTITIES.items()
+        if quantity.truth.isidentifier()
+    },
+    "contact": "contact",
+    "wholeness": "cut",
+    "force_band": "force_band",
 }
-"""The fact that tells each name of a scene, of those that are numbers."""
+"""The fact that tells each name of a scene, of those that have one of their own."""
 
 _WORDS: Mapping[str, Mapping[str, str]] = {
     "side_x": {"left": "left of the middle", "right": "right of the middle"},

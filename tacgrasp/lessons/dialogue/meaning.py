@@ -97,11 +97,14 @@ class Which:
         name: Name of a scene whose value is a word.
         is_open: Whether no words to choose from are offered.
         length: How long the answer is to be.
+        offered: Words of the name to choose from, where another one is to be called none of them;
+            empty where any word is as good.
     """
 
     name: str
     is_open: bool = False
     length: Length = Length.FREE
+    offered: tuple[str, ...] = ()
 
 
 Part = Amount | Check | Calculated | Which

@@ -246,7 +246,7 @@ def test_conditions_of_one_clause_get_one_verdict(question, text):
             "Yes, the depth is 0.19 mm and the force is 0.83 N.",
         ),
         ("Is it left or right of the middle?", "It is right of the middle."),
-        ("A cube or a ring, no?", "It is an ellipsoid."),
+        ("A cube or a ring, no?", "Neither: it is an ellipsoid."),
         ("Is it either a sphere or an ellipsoid?", "Yes, it is an ellipsoid."),
         ("Is it both smooth and round?", "No, the surface is smooth and it is an ellipsoid."),
         ("Is the force less than twice 0.2 N?", "No, the force is 0.83 N."),

@@ -48,7 +48,8 @@ _NAMED: Mapping[str, tuple[str, str]] = {
     r"(?:force |permitted |allowed |permissible |hard |upper |safety |maximum |"
     r"never exceed )*(?:limit|ceiling|cap)(?: force)?|"
     r"(?:permitted|allowed|permissible) (?:maximum|max)(?: force)?|"
-    r"maximum (?:permitted|allowed|permissible) force|maximum force (?:permitted|allowed)": (
+    r"maximum (?:permitted|allowed|permissible) force|maximum force (?:permitted|allowed)|"
+    r"never exceed (?:force|value|line)": (
         "limit_n", "force",
     ),
     _ends(_LOW): ("band_low_n", "force"),

@@ -93,7 +93,8 @@ def other_query(words: str) -> str:
         return "unknown past."
     if doubt := _DOUBT.match(words):
         return f"why {_REASONS.get(doubt['what'], doubt['what'])}."
-    return "choice action." if _HARDER_OR_SOFTER.match(words) else ""
+    is_advice = _HARDER_OR_SOFTER.match(words) and "#" not in words
+    return "choice action." if is_advice else ""
 
 
 def _sided(sided: re.Match[str]) -> str:
