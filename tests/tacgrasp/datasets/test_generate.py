@@ -171,7 +171,7 @@ def test_who_stops_it_is_told_that_it_stops(tmp_path, monkeypatch, caplog):
 
     monkeypatch.setattr(made, "as_completed", interrupted)
     with pytest.raises(KeyboardInterrupt):
-        generate(tmp_path / "data", contacts=30, workers=2)
+        generate(tmp_path / "data", contacts=10, workers=2)
     assert "stopping, once the workers have; the same command goes on" in caplog.text
 
 
