@@ -73,10 +73,12 @@ _CHANGES: tuple[tuple[re.Pattern[str], int], ...] = (
     (re.compile(rf"\badd(?:ed|ing)?(?: on)? {_ABOUT}(?P<by>{_AMOUNT}){_ONTO}"), 1),
     (re.compile(rf"\b{_PUT}(?: on)? {_ABOUT}(?P<by>{_AMOUNT})(?: (?:more|extra))? (?:on top|to|onto|on)(?: of)?(?: {_IT})?(?=\s*(?:$|[.,;:!?)]|and\b|please|today|now|this|for|because|since|as))"), 1),
     (re.compile(rf"(?:\b(?:and|with|then|plus)|,|\+) (?:another|an? (?:further|extra|additional)|further|extra|additional|{_ABOUT}(?={_AMOUNT} (?:on top|extra|in addition|besides|as well)\b)) ?{_ABOUT}(?P<by>{_AMOUNT}){_ONTO}"), 1),
+    (re.compile(rf"(?:\bplus|\+) {_ABOUT}(?P<by>{_SHARE}) of {_THAT}"), 1),
+    (re.compile(rf"\bminus {_ABOUT}(?P<by>{_SHARE}) of {_THAT}"), -1),
     (re.compile(rf"\b(?P<by>{_AMOUNT}) (?:on top|extra|more|higher|firmer|tighter|harder|stronger|above|over|up)(?: of| than| on| from)? {_THAT}"), 1),
     (re.compile(rf"\b{_TAKE}(?: off)? {_ABOUT}(?P<by>{_AMOUNT}) (?:off|from|out of|away)(?: of)?(?: {_IT})?"), -1),
     (re.compile(rf"\b{_TAKE} off {_ABOUT}(?P<by>{_AMOUNT})"), -1),
-    (re.compile(rf"\b(?:subtract|deduct|los(?:e|ing)|subtracting|deducting|minus|less) {_ABOUT}(?P<by>{_AMOUNT})"), -1),
+    (re.compile(rf"\b(?:subtract|deduct|los(?:e|ing)|subtracting|deducting|(?<!plus[ /-])(?<!or )(?<!and )(?<!/)minus|less) {_ABOUT}(?P<by>{_AMOUNT})"), -1),
     (re.compile(rf"\b(?P<by>{_AMOUNT}) (?:less|lower|softer|gentler|lighter|looser|weaker|below|under|off|down|short)(?: of| than| from)? {_THAT}"), -1),
     (re.compile(rf"\b(?P<by>{_SHARE})(?: knocked| taken| shaved)? off(?=\s*(?:$|[.,;:!?)]|please|today|now|for|because|since))"), -1),
 )  # fmt: skip
@@ -85,10 +87,11 @@ _MULTIPLES: tuple[re.Pattern[str], ...] = (
     re.compile(rf"\b{_ABOUT}(?P<share>{_SHARE}|{NUMBER}) (?:of {_THAT}|thereof\b|(?:as much|the amount|the force)(?! (?:again|more)\b)(?: as {_THAT})?(?=\s*(?:$|[.,;:!?)]|for|on|please|today|now|here|because|since)))"),
     re.compile(rf"\b(?:use|take|apply|try|want|with|only|just|at) {_ABOUT}(?P<share>{_SHARE}) of it\b(?! (?:is|are|was|were|has))"),
     re.compile(rf"\b(?P<share>{'|'.join(_TIMES)}|{NUMBER} (?:times|x|×))(?: of)? (?:{_THAT}|(?:as much|the amount|the force)(?: as {_THAT})?(?=\s*(?:$|[.,;:!?)]|for|on|please|today|now|here)))"),
+    re.compile(r"\b(?P<share>half (?:as (?:much|hard|firm\w*|strong\w*) )?again(?: as (?:much|hard|firm\w*|strong\w*))?|as much again)\b"),
     re.compile(rf"\b(?P<share>half) (?:of )?{_THAT}"),
     re.compile(rf"\b(?P<share>halv|doubl|tripl|trebl|quadrupl)(?:e|ed|ing)(?: {_IT})?(?=\s*(?:$|[.,;:!?)]|for|and|please|today|now|because|since))"),
     re.compile(rf"\bmultipl(?:y|ied|ying){_OBJECT} (?:by|with) (?:a factor of )?(?P<share>{_SHARE}|{NUMBER})"),
-    re.compile(rf"\bdivid(?:e|ed|ing){_OBJECT} by (?:a factor of )?(?P<divisor>{NUMBER})"),
+    re.compile(rf"\bdivid(?:e|ing) {_IT} by (?:a factor of )?(?P<divisor>{NUMBER})"),
     re.compile(rf"\b(?:scal(?:e|ed|ing)|{_LOWER}){_OBJECT} (?:to|by a factor of|down to) {_ABOUT}(?P<share>{_SHARE}|0?[.,]\d+)(?! ?(?:{UNIT})\b)(?: of (?:{_THAT}|it))?"),
     re.compile(rf"\b(?:scal(?:e|ed|ing)){_OBJECT} by (?P<share>{_SHARE}|{NUMBER})"),
     re.compile(rf"\b(?:cut|chop|split|divide|slice){_OBJECT} in (?P<share>half)\b"),
@@ -105,9 +108,10 @@ _BOUND_BEFORE = re.compile(
     r"(?:\b(?:at (?:the )?(?:very |absolute )?(?:most|least)|than|under|over|above|below|beneath|beyond|past|up to|exceed(?:ing)?|max(?:imum)?|min(?:imum)?|"
     r"limit|ceiling|cap|floor|(?:max(?:imum)?|min(?:imum)?|limit|ceiling|cap|floor|capped) (?:of|is|at|to)|reach(?:ing)?|reaches|hits?)|[<>≤≥])\s*$"
 )
+_RANGE_BEFORE = re.compile(rf"{_FORCE}\s*(?:\bto|\bup to|\band|\bor|-|–)\s*$")
 _PAIRED = re.compile(r"\s*(?:-|–|to|and|or|up to|,)\s*")
 _UNSURE = re.compile(
-    rf"\b(?:{_RAISE}|{_LOWER}){_OBJECT} by {_ABOUT}(?:{_AMOUNT}|{NUMBER}|an?\b|some\b)|\b{_ABOUT}(?:{_SHARE}|a (?:small |large |good |tiny )?(?:fraction|part|bit|portion|fractions|multiple)) (?:of|off|less than|more than|below|above) (?:{_THAT})|"
+    rf"\b(?:{_RAISE}|{_LOWER}){_OBJECT} by {_ABOUT}(?:{_AMOUNT}|{NUMBER}(?=\s*(?:$|[.,;:!?)](?!\d)|and\b|please))|an? (?!\w+ (?:of the way|millimet))(?:bit|little|lot|notch|touch|tad|hair|smidge\w*|few|fraction|part|portion|good|small|certain|couple)\b|some\b)|\b{_ABOUT}(?:{_SHARE}|a (?:small |large |good |tiny )?(?:fraction|part|bit|portion|fractions|multiple)) (?:of|off|less than|more than|below|above) (?:{_THAT})|"
     rf"\b(?:de-?rat|multipl(?:y|ied)|divid(?:e|ed))(?:e|ed|ing)?\b(?= (?:by|it|that|this|with|accordingly)|[.,;!?]|$)|\b(?:knock|shave|lop|skim)\w*(?: \w+){{0,4}}? off(?: (?:that|it|this))?\b|\b(?:geometric|harmonic|weighted|quadratic) mean\b|\b(?:average|mean|mid-?point|halfway|midway) (?:of|between)\b|"
     rf"\b{_SHARE} off\b|\b(?:half again|as much again)\b"
 )
@@ -169,7 +173,8 @@ def _next(text: str, at: int) -> tuple[re.Match[str], int, str] | None:
     if not found:
         return None
     match, begin, one = min(found, key=lambda each: (each[1], -each[0].end()))
-    mark = "" if _BOUND_BEFORE.search(text[:begin]) else f"{WORKED_OUT} "
+    is_end = _BOUND_BEFORE.search(text[:begin]) or _RANGE_BEFORE.search(text[:begin])
+    mark = "" if is_end else f"{WORKED_OUT} "
     before = " " if begin and text[begin - 1].isalnum() else ""
     return match, begin, f"{before}{mark}{one}"
 
@@ -214,6 +219,8 @@ def _factor(match: re.Match[str]) -> float:
 def _share(text: str) -> float:
     """'25 %', 'a quarter', '2 thirds', '3/4', 'twice', '3 times' as a number."""
     text = text.strip()
+    if re.search(r"\bagain\b", text):
+        return 1.5 if text.startswith("half") else 2.0
     if text in _STEMS or text in _TIMES:
         return {**_STEMS, **_TIMES}[text]
     if match := re.fullmatch(rf"({NUMBER}){_PERCENT}", text):
