@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
+from functools import partial
 
 from policies.instructions.quantities.force_units import ALONE, NUMBER, UNIT, in_newtons, number
 
@@ -39,6 +40,7 @@ _THAT = (
 _IT = rf"(?:{_THAT}|it\b|them\b|things\b)"
 _RAISE = r"(?:increas(?:e|ed|es|ing)|rais(?:e|ed|ing)|boost(?:ed|ing)?|bump(?:ed|ing)?(?: it)?|upp(?:ed|ing)|up|uprat(?:e|ed)|hik(?:e|ed)|lift(?:ed)?|augment(?:ed)?|strengthen(?:ed)?|step(?:ped)? up|top(?:ped)? up|go(?:ing)? up|turn(?:ed)? (?:it )?up|crank(?:ed)? (?:it )?up|dial(?:led)? (?:it )?up|scal(?:e|ed) (?:it )?up|push(?:ed)? (?:it )?up|nudg(?:e|ed) (?:it )?up)"
 _LOWER = r"(?:reduc(?:e|ed|es|ing)|lower(?:ed|ing)?|decreas(?:e|ed|ing)|cut(?:ting)?|drop(?:ped|ping)?|de-?rat(?:e|ed|ing)|down-?rat(?:e|ed)|discount(?:ed|ing)?|trim(?:med|ming)?|shav(?:e|ed|ing)|lessen(?:ed)?|diminish(?:ed)?|shr[iu]nk|slash(?:ed)?|curtail(?:ed)?|eas(?:e|ed|ing)|back(?:ed|ing)?|go(?:ing)? down|turn(?:ed)? (?:it )?down|dial(?:led)? (?:it )?(?:down|back)|scal(?:e|ed) (?:it )?(?:down|back)|bring (?:it )?down|knock(?:ed)? (?:it )?down|com(?:e|ing) down|throttl(?:e|ed))"
+_MOVE = r"(?:dial|turn|bring|scale|take|crank|bump|push|step|nudge|move|knock|ramp|wind|notch)"
 _OBJECT = rf"(?: {_IT})?(?: (?:up|down|back|off|further))*"
 _TAKE = r"(?:knock|tak|shav|trim|cut|lop|chop|subtract|deduct|remov|drop|dock|strip|skim|slic|los|pull|clip|whip)(?:e|es|ed|n|ing|s|p(?:ed|ing)|t(?:ed|ing))?"
 _PUT = r"(?:add|put|tack|stick|pil|throw|lump|chuck|slap|pop|bung|whack|stack|giv)(?:e|ed|ing)?(?: it)?"
@@ -65,6 +67,8 @@ _INNER: tuple[tuple[re.Pattern[str], int], ...] = (
     (re.compile(rf"\b{_LOWER} (?:the |that |our |a )?(?:\w+ )?(?P<one>{_FORCE})(?: \w+){{0,2}}? by {_ABOUT}(?P<by>{_AMOUNT})"), -1),
     (re.compile(rf"\b{_PUT} {_ABOUT}(?P<by>{_AMOUNT})(?: extra| more)? (?:on top of|onto|to|on) (?:the |that |our |a )?(?:\w+ )?(?P<one>{_FORCE})"), 1),
     (re.compile(rf"\b{_TAKE} {_ABOUT}(?P<by>{_AMOUNT}) (?:off|from|out of|away from)(?: of)? (?:the |that |our |a )?(?:\w+ )?(?P<one>{_FORCE})"), -1),
+    (re.compile(rf"\b{_MOVE} (?:the |that |our |a )?(?P<one>{_FORCE})(?: \w+)? (?:up|higher) by {_ABOUT}(?P<by>{_AMOUNT})"), 1),
+    (re.compile(rf"\b{_MOVE} (?:the |that |our |a )?(?P<one>{_FORCE})(?: \w+)? (?:down|back|lower) by {_ABOUT}(?P<by>{_AMOUNT})"), -1),
 )  # fmt: skip
 """'Derate 0.8 N by 25 %', 'add 0.1 N to 0.4 N': the force stands within the change."""
 _CHANGES: tuple[tuple[re.Pattern[str], int], ...] = (
@@ -108,10 +112,10 @@ _BOUND_BEFORE = re.compile(
     r"(?:\b(?:at (?:the )?(?:very |absolute )?(?:most|least)|than|under|over|above|below|beneath|beyond|past|up to|exceed(?:ing)?|max(?:imum)?|min(?:imum)?|"
     r"limit|ceiling|cap|floor|(?:max(?:imum)?|min(?:imum)?|limit|ceiling|cap|floor|capped) (?:of|is|at|to)|reach(?:ing)?|reaches|hits?)|[<>≤≥])\s*$"
 )
-_RANGE_BEFORE = re.compile(rf"{_FORCE}\s*(?:\bto|\bup to|\band|\bor|-|–)\s*$")
+_RANGE_BEFORE = re.compile(rf"{_FORCE}\s*(?:\bto|\bup to|-|–)\s*$|\bbetween {_FORCE}\s*and\s*$")
 _PAIRED = re.compile(r"\s*(?:-|–|to|and|or|up to|,)\s*")
 _UNSURE = re.compile(
-    rf"\b(?:{_RAISE}|{_LOWER}){_OBJECT} by {_ABOUT}(?:{_AMOUNT}|{NUMBER}(?=\s*(?:$|[.,;:!?)](?!\d)|and\b|please))|an? (?!\w+ (?:of the way|millimet))(?:bit|little|lot|notch|touch|tad|hair|smidge\w*|few|fraction|part|portion|good|small|certain|couple)\b|some\b)|\b{_ABOUT}(?:{_SHARE}|a (?:small |large |good |tiny )?(?:fraction|part|bit|portion|fractions|multiple)) (?:of|off|less than|more than|below|above) (?:{_THAT})|"
+    rf"\b(?:{_RAISE}|{_LOWER}){_OBJECT} by {_ABOUT}(?:{_AMOUNT}|{NUMBER}(?=\s*(?:$|[.,;:!?)](?!\d)|and\b|please))|an? (?!\w+ (?:of the way|millimet))(?:bit|little|lot|notch|touch|tad|hair|smidge\w*|few|fraction|part|portion|good|small|certain|couple)\b|some\b)|\b{_ABOUT}(?:{_SHARE}|a (?:small |large |good |tiny )?(?:fraction|part|bit|portion|fractions|multiple)) (?:of|off|less than|more than|below|above) (?:{_THAT})|\b(?:fraction|portion|multiple|bit|little|some) (?:of|off|less than|more than) (?:the |that )?{_FORCE}|"
     rf"\b(?:de-?rat|multipl(?:y|ied)|divid(?:e|ed))(?:e|ed|ing)?\b(?= (?:by|it|that|this|with|accordingly)|[.,;!?]|$)|\b(?:knock|shave|lop|skim)\w*(?: \w+){{0,4}}? off(?: (?:that|it|this))?\b|\b(?:geometric|harmonic|weighted|quadratic) mean\b|\b(?:average|mean|mid-?point|halfway|midway) (?:of|between)\b|"
     rf"\b{_SHARE} off\b|\b(?:half again|as much again)\b"
 )
@@ -122,10 +126,10 @@ def worked_out(text: str) -> str:
     """A plain text, its numbers in digits, with forces in place of what they are worked out from."""
     text = text.replace(WORKED_OUT, "→")
     for pattern, reckon in _BETWEEN:
-        text = pattern.sub(lambda m, reckon=reckon: _between(m, reckon), text)
+        text = pattern.sub(partial(_between, reckon=reckon), text)
     text = _OF_THE_WAY.sub(_part_of_the_way, text)
     for inner, sign in _INNER:
-        text = inner.sub(lambda m, sign=sign: _changed(m["one"], m["by"], sign), text)
+        text = inner.sub(partial(_changed_within, sign=sign), text)
     at = 0
     while found := _next(text, at):
         match, begin, one = found
@@ -144,6 +148,10 @@ def unsure_change(text: str) -> str:
         if not _DENIED.search(text[: match.start()]) and re.search(_FORCE, text):
             return match[0].strip()
     return ""
+
+
+def _changed_within(match: re.Match[str], sign: int) -> str:
+    return _changed(match["one"], match["by"], sign)
 
 
 def _between(match: re.Match[str], reckon: Callable[[float, float], float]) -> str:
