@@ -94,7 +94,7 @@ _TOO_FOR = re.compile(
 )
 """'Too delicate to grip hard': it is delicate, and not to be gripped hard."""
 _RATHER = re.compile(
-    r"\b(?:rather|better|sooner|prefer\w*)\b(?: \w+)*? (?:too )?(\w+) than (?:too |be |being )?(?!usual|normal|before|last|that|this|it\b|standard|the\b|you)\w+"
+    r"\b(?:rather|better|sooner|prefer\w*)\b(?: \w+)*? (?:too )?(?!little\b|much\b)(\w+) than (?:too |be |being )?(?!usual|normal|before|last|that|this|it\b|standard|the\b|you)\w+"
 )
 _DENIED_AFTER = re.compile(
     rf"^[^,;]{{0,40}}?\b(?:{FORBIDDEN_AFTER}|(?:is|are) (?:not|no longer|wrong|out\b|useless|forbidden|unnecessary|overrated|the wrong|a mistake|for)|"

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
+from functools import partial
 
 from policies.instructions.quantities.force_units import ALONE, NUMBER, UNIT, in_newtons, number
 
@@ -39,6 +40,7 @@ _THAT = (
 _IT = rf"(?:{_THAT}|it\b|them\b|things\b)"
 _RAISE = r"(?:increas(?:e|ed|es|ing)|rais(?:e|ed|ing)|boost(?:ed|ing)?|bump(?:ed|ing)?(?: it)?|upp(?:ed|ing)|up|uprat(?:e|ed)|hik(?:e|ed)|lift(?:ed)?|augment(?:ed)?|strengthen(?:ed)?|step(?:ped)? up|top(?:ped)? up|go(?:ing)? up|turn(?:ed)? (?:it )?up|crank(?:ed)? (?:it )?up|dial(?:led)? (?:it )?up|scal(?:e|ed) (?:it )?up|push(?:ed)? (?:it )?up|nudg(?:e|ed) (?:it )?up)"
 _LOWER = r"(?:reduc(?:e|ed|es|ing)|lower(?:ed|ing)?|decreas(?:e|ed|ing)|cut(?:ting)?|drop(?:ped|ping)?|de-?rat(?:e|ed|ing)|down-?rat(?:e|ed)|discount(?:ed|ing)?|trim(?:med|ming)?|shav(?:e|ed|ing)|lessen(?:ed)?|diminish(?:ed)?|shr[iu]nk|slash(?:ed)?|curtail(?:ed)?|eas(?:e|ed|ing)|back(?:ed|ing)?|go(?:ing)? down|turn(?:ed)? (?:it )?down|dial(?:led)? (?:it )?(?:down|back)|scal(?:e|ed) (?:it )?(?:down|back)|bring (?:it )?down|knock(?:ed)? (?:it )?down|com(?:e|ing) down|throttl(?:e|ed))"
+_MOVE = r"(?:dial|turn|bring|scale|take|crank|bump|push|step|nudge|move|knock|ramp|wind|notch)"
 _OBJECT = rf"(?: {_IT})?(?: (?:up|down|back|off|further))*"
 _TAKE = r"(?:knock|tak|shav|trim|cut|lop|chop|subtract|deduct|remov|drop|dock|strip|skim|slic|los|pull|clip|whip)(?:e|es|ed|n|ing|s|p(?:ed|ing)|t(?:ed|ing))?"
 _PUT = r"(?:add|put|tack|stick|pil|throw|lump|chuck|slap|pop|bung|whack|stack|giv)(?:e|ed|ing)?(?: it)?"
@@ -65,6 +67,8 @@ _INNER: tuple[tuple[re.Pattern[str], int], ...] = (
     (re.compile(rf"\b{_LOWER} (?:the |that |our |a )?(?:\w+ )?(?P<one>{_FORCE})(?: \w+){{0,2}}? by {_ABOUT}(?P<by>{_AMOUNT})"), -1),
     (re.compile(rf"\b{_PUT} {_ABOUT}(?P<by>{_AMOUNT})(?: extra| more)? (?:on top of|onto|to|on) (?:the |that |our |a )?(?:\w+ )?(?P<one>{_FORCE})"), 1),
     (re.compile(rf"\b{_TAKE} {_ABOUT}(?P<by>{_AMOUNT}) (?:off|from|out of|away from)(?: of)? (?:the |that |our |a )?(?:\w+ )?(?P<one>{_FORCE})"), -1),
+    (re.compile(rf"\b{_MOVE} (?:the |that |our |a )?(?P<one>{_FORCE})(?: \w+)? (?:up|higher) by {_ABOUT}(?P<by>{_AMOUNT})"), 1),
+    (re.compile(rf"\b{_MOVE} (?:the |that |our |a )?(?P<one>{_FORCE})(?: \w+)? (?:down|back|lower) by {_ABOUT}(?P<by>{_AMOUNT})"), -1),
 )  # fmt: skip
 """'Derate 0.8 N by 25 %', 'add 0.1 N to 0.4 N': the force stands within the change."""
 _CHANGES: tuple[tuple[re.Pattern[str], int], ...] = (
@@ -73,10 +77,12 @@ _CHANGES: tuple[tuple[re.Pattern[str], int], ...] = (
     (re.compile(rf"\badd(?:ed|ing)?(?: on)? {_ABOUT}(?P<by>{_AMOUNT}){_ONTO}"), 1),
     (re.compile(rf"\b{_PUT}(?: on)? {_ABOUT}(?P<by>{_AMOUNT})(?: (?:more|extra))? (?:on top|to|onto|on)(?: of)?(?: {_IT})?(?=\s*(?:$|[.,;:!?)]|and\b|please|today|now|this|for|because|since|as))"), 1),
     (re.compile(rf"(?:\b(?:and|with|then|plus)|,|\+) (?:another|an? (?:further|extra|additional)|further|extra|additional|{_ABOUT}(?={_AMOUNT} (?:on top|extra|in addition|besides|as well)\b)) ?{_ABOUT}(?P<by>{_AMOUNT}){_ONTO}"), 1),
+    (re.compile(rf"(?:\bplus|\+) {_ABOUT}(?P<by>{_SHARE}) of {_THAT}"), 1),
+    (re.compile(rf"\bminus {_ABOUT}(?P<by>{_SHARE}) of {_THAT}"), -1),
     (re.compile(rf"\b(?P<by>{_AMOUNT}) (?:on top|extra|more|higher|firmer|tighter|harder|stronger|above|over|up)(?: of| than| on| from)? {_THAT}"), 1),
     (re.compile(rf"\b{_TAKE}(?: off)? {_ABOUT}(?P<by>{_AMOUNT}) (?:off|from|out of|away)(?: of)?(?: {_IT})?"), -1),
     (re.compile(rf"\b{_TAKE} off {_ABOUT}(?P<by>{_AMOUNT})"), -1),
-    (re.compile(rf"\b(?:subtract|deduct|los(?:e|ing)|subtracting|deducting|minus|less) {_ABOUT}(?P<by>{_AMOUNT})"), -1),
+    (re.compile(rf"\b(?:subtract|deduct|los(?:e|ing)|subtracting|deducting|(?<!plus[ /-])(?<!or )(?<!and )(?<!/)minus|less) {_ABOUT}(?P<by>{_AMOUNT})"), -1),
     (re.compile(rf"\b(?P<by>{_AMOUNT}) (?:less|lower|softer|gentler|lighter|looser|weaker|below|under|off|down|short)(?: of| than| from)? {_THAT}"), -1),
     (re.compile(rf"\b(?P<by>{_SHARE})(?: knocked| taken| shaved)? off(?=\s*(?:$|[.,;:!?)]|please|today|now|for|because|since))"), -1),
 )  # fmt: skip
@@ -85,10 +91,11 @@ _MULTIPLES: tuple[re.Pattern[str], ...] = (
     re.compile(rf"\b{_ABOUT}(?P<share>{_SHARE}|{NUMBER}) (?:of {_THAT}|thereof\b|(?:as much|the amount|the force)(?! (?:again|more)\b)(?: as {_THAT})?(?=\s*(?:$|[.,;:!?)]|for|on|please|today|now|here|because|since)))"),
     re.compile(rf"\b(?:use|take|apply|try|want|with|only|just|at) {_ABOUT}(?P<share>{_SHARE}) of it\b(?! (?:is|are|was|were|has))"),
     re.compile(rf"\b(?P<share>{'|'.join(_TIMES)}|{NUMBER} (?:times|x|×))(?: of)? (?:{_THAT}|(?:as much|the amount|the force)(?: as {_THAT})?(?=\s*(?:$|[.,;:!?)]|for|on|please|today|now|here)))"),
+    re.compile(r"\b(?P<share>half (?:as (?:much|hard|firm\w*|strong\w*) )?again(?: as (?:much|hard|firm\w*|strong\w*))?|as much again)\b"),
     re.compile(rf"\b(?P<share>half) (?:of )?{_THAT}"),
     re.compile(rf"\b(?P<share>halv|doubl|tripl|trebl|quadrupl)(?:e|ed|ing)(?: {_IT})?(?=\s*(?:$|[.,;:!?)]|for|and|please|today|now|because|since))"),
     re.compile(rf"\bmultipl(?:y|ied|ying){_OBJECT} (?:by|with) (?:a factor of )?(?P<share>{_SHARE}|{NUMBER})"),
-    re.compile(rf"\bdivid(?:e|ed|ing){_OBJECT} by (?:a factor of )?(?P<divisor>{NUMBER})"),
+    re.compile(rf"\bdivid(?:e|ing) {_IT} by (?:a factor of )?(?P<divisor>{NUMBER})"),
     re.compile(rf"\b(?:scal(?:e|ed|ing)|{_LOWER}){_OBJECT} (?:to|by a factor of|down to) {_ABOUT}(?P<share>{_SHARE}|0?[.,]\d+)(?! ?(?:{UNIT})\b)(?: of (?:{_THAT}|it))?"),
     re.compile(rf"\b(?:scal(?:e|ed|ing)){_OBJECT} by (?P<share>{_SHARE}|{NUMBER})"),
     re.compile(rf"\b(?:cut|chop|split|divide|slice){_OBJECT} in (?P<share>half)\b"),
@@ -105,9 +112,10 @@ _BOUND_BEFORE = re.compile(
     r"(?:\b(?:at (?:the )?(?:very |absolute )?(?:most|least)|than|under|over|above|below|beneath|beyond|past|up to|exceed(?:ing)?|max(?:imum)?|min(?:imum)?|"
     r"limit|ceiling|cap|floor|(?:max(?:imum)?|min(?:imum)?|limit|ceiling|cap|floor|capped) (?:of|is|at|to)|reach(?:ing)?|reaches|hits?)|[<>≤≥])\s*$"
 )
+_RANGE_BEFORE = re.compile(rf"{_FORCE}\s*(?:\bto|\bup to|-|–)\s*$|\bbetween {_FORCE}\s*and\s*$")
 _PAIRED = re.compile(r"\s*(?:-|–|to|and|or|up to|,)\s*")
 _UNSURE = re.compile(
-    rf"\b(?:{_RAISE}|{_LOWER}){_OBJECT} by {_ABOUT}(?:{_AMOUNT}|{NUMBER}|an?\b|some\b)|\b{_ABOUT}(?:{_SHARE}|a (?:small |large |good |tiny )?(?:fraction|part|bit|portion|fractions|multiple)) (?:of|off|less than|more than|below|above) (?:{_THAT})|"
+    rf"\b(?:{_RAISE}|{_LOWER}){_OBJECT} by {_ABOUT}(?:{_AMOUNT}|{NUMBER}(?=\s*(?:$|[.,;:!?)](?!\d)|and\b|please))|an? (?!\w+ (?:of the way|millimet))(?:bit|little|lot|notch|touch|tad|hair|smidge\w*|few|fraction|part|portion|good|small|certain|couple)\b|some\b)|\b{_ABOUT}(?:{_SHARE}|a (?:small |large |good |tiny )?(?:fraction|part|bit|portion|fractions|multiple)) (?:of|off|less than|more than|below|above) (?:{_THAT})|\b(?:fraction|portion|multiple|bit|little|some) (?:of|off|less than|more than) (?:the |that )?{_FORCE}|"
     rf"\b(?:de-?rat|multipl(?:y|ied)|divid(?:e|ed))(?:e|ed|ing)?\b(?= (?:by|it|that|this|with|accordingly)|[.,;!?]|$)|\b(?:knock|shave|lop|skim)\w*(?: \w+){{0,4}}? off(?: (?:that|it|this))?\b|\b(?:geometric|harmonic|weighted|quadratic) mean\b|\b(?:average|mean|mid-?point|halfway|midway) (?:of|between)\b|"
     rf"\b{_SHARE} off\b|\b(?:half again|as much again)\b"
 )
@@ -118,10 +126,10 @@ def worked_out(text: str) -> str:
     """A plain text, its numbers in digits, with forces in place of what they are worked out from."""
     text = text.replace(WORKED_OUT, "→")
     for pattern, reckon in _BETWEEN:
-        text = pattern.sub(lambda m, reckon=reckon: _between(m, reckon), text)
+        text = pattern.sub(partial(_between, reckon=reckon), text)
     text = _OF_THE_WAY.sub(_part_of_the_way, text)
     for inner, sign in _INNER:
-        text = inner.sub(lambda m, sign=sign: _changed(m["one"], m["by"], sign), text)
+        text = inner.sub(partial(_changed_within, sign=sign), text)
     at = 0
     while found := _next(text, at):
         match, begin, one = found
@@ -140,6 +148,10 @@ def unsure_change(text: str) -> str:
         if not _DENIED.search(text[: match.start()]) and re.search(_FORCE, text):
             return match[0].strip()
     return ""
+
+
+def _changed_within(match: re.Match[str], sign: int) -> str:
+    return _changed(match["one"], match["by"], sign)
 
 
 def _between(match: re.Match[str], reckon: Callable[[float, float], float]) -> str:
@@ -169,7 +181,8 @@ def _next(text: str, at: int) -> tuple[re.Match[str], int, str] | None:
     if not found:
         return None
     match, begin, one = min(found, key=lambda each: (each[1], -each[0].end()))
-    mark = "" if _BOUND_BEFORE.search(text[:begin]) else f"{WORKED_OUT} "
+    is_end = _BOUND_BEFORE.search(text[:begin]) or _RANGE_BEFORE.search(text[:begin])
+    mark = "" if is_end else f"{WORKED_OUT} "
     before = " " if begin and text[begin - 1].isalnum() else ""
     return match, begin, f"{before}{mark}{one}"
 
@@ -214,6 +227,8 @@ def _factor(match: re.Match[str]) -> float:
 def _share(text: str) -> float:
     """'25 %', 'a quarter', '2 thirds', '3/4', 'twice', '3 times' as a number."""
     text = text.strip()
+    if re.search(r"\bagain\b", text):
+        return 1.5 if text.startswith("half") else 2.0
     if text in _STEMS or text in _TIMES:
         return {**_STEMS, **_TIMES}[text]
     if match := re.fullmatch(rf"({NUMBER}){_PERCENT}", text):

@@ -40,10 +40,12 @@ _TAKEN_BACK = re.compile(rf"[\s.,;:!–—-]*\b{english.any_of('correction')}[\s
 _WRONG = (
     r"(?:(?:got|gets|had|has|wrote|copied|read|typed|put|took|set|noted|scribbled|jotted)(?: (?:it|that|this|them|the \w+))?(?: down| up)? (?:all )?(?:wrong(?:ly)?|incorrect(?:ly)?|in error|by mistake)|"
     r"(?:is|was|are|were|'s|looks|seems)(?: (?:just|simply|plain|clearly|definitely|totally|completely|obviously|quite|all))? (?:wrong|incorrect|mistaken|inaccurate|outdated|out of date|obsolete|rubbish|nonsense|garbage|bogus|(?:not|never) (?:right|correct|true)|an? (?:typo|mistake|misprint|error|slip|old (?:figure|value|number)))|"
-    r"made an? (?:\w+ )?(?:mistake|typo|slip|error)|(?:misread|mistyped|misprinted|mis-?wrote|miswritten|misheard|miscopied|misnoted)|"
-    r"(?:should|ought to|was meant to|is meant to|was supposed to|is supposed to)(?: really| actually| of course)? (?:be|read|say|have (?:been|read|said)))"
+    r"made an? (?:\w+ )?(?:mistake|typo|slip|error)|(?:misread|mistyped|misprinted|mis-?wrote|miswritten|misheard|miscopied|misnoted))"
 )
-_WAS_WRONG = re.compile(rf"(?<!nothing )(?<!something )(?<!what )\b{_WRONG}\b")
+_WAS_WRONG = re.compile(
+    rf"(?<!nothing )(?<!something )(?<!what )\b(?:{_WRONG}\b|"
+    r"(?:should|ought to|(?:was|is) (?:meant|supposed) to)(?: really| actually| of course)? (?:be|read|say|have (?:been|read|said))(?: about| around| roughly)?\s*$)"
+)
 """Between two forces: the second stands for the first ('he wrote 0.9 N but got it wrong, it is 0.6 N')."""
 _IS_WRONG = re.compile(
     rf"(?:(?:,? (?:on|in|at|from|of|by|up on) (?:the |his|her|my|that)?[^\d.;,!?#]{{1,25}})?,? ?[–—-]? ?(?:(?:but|which|that|however|though|yet|only)\b[^\d.;!?#]{{0,30}}? ?)?){_WRONG}\b"

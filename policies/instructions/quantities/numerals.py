@@ -89,12 +89,12 @@ def in_digits(text: str) -> str:
     text = _CHAIN.sub(lambda match: _cardinals(match[0]), _PRONOUN.sub("1ne", text))
     text = text.replace("1ne", "one")
     text = re.sub(
-        r"\b(\d+)[ -](?:point|dot|comma|decimal)[ -]((?:oh?|\d+)(?:[ -](?:oh?|\d)\b)*)",
+        r"\b(\d+)[ -](?:point|dot|comma|decimal)[ -]((?:oh?\b|\d+)(?:[ -](?:oh?|\d)\b)*)",
         _decimal,
         text,
     )
     text = re.sub(
-        r"(?<!set )(?<!set-)\b(?:point|dot) ((?:oh?|\d+)(?:[ -](?:oh?|\d)\b)*)(?![.,]\d)",
+        r"(?<!set )(?<!set-)\b(?:point|dot) ((?:oh?\b|\d+)(?:[ -](?:oh?|\d)\b)*)(?![.,]\d)",
         _bare_decimal,
         text,
     )
