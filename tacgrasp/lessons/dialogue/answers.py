@@ -164,7 +164,7 @@ def _calculated(asked: Calculated, scene: AskedScene) -> Answer:
     if kind is AnswerKind.CHOICE:
         return Answer(text=f"{capital(str(value))}.", kind=kind, value=value)
     shown = [FACT_OF[name] for name in names_of(asked) if name in FACT_OF]
-    clauses = [fact(name, scene)[1] for name in shown]
+    clauses = [fact(name, scene)[1] for name in dict.fromkeys(shown)]
     yes = "Yes" if value else "No"
     return Answer(text=f"{', '.join((yes, *clauses))}.", kind=kind, value=bool(value))
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from cltp.tactile.states import Shape
+from cltp.tactile.states import Shape, Side
 from cltp.texts.captions import with_article
 from policies.teacher import Reason
 from primitives import Primitive
@@ -57,9 +57,17 @@ UNTOUCHED_NAMES = {*UNMEASURED, "contact", "gram_n"}
 """Names that have a meaning where nothing touches."""
 
 FACT_OF: Mapping[str, str] = {
-    quantity.truth: name for name, quantity in QUANTITIES.items() if quantity.truth.isidentifier()
+    **{
+        quantity.truth: name
+        for name, quantity in QUANTITIES.items()
+        if quantity.truth.isidentifier()
+    },
+    "shape": "shape",
+    "texture": "texture",
+    "area_percent": "area",
+    **{f"cut_{side}": "cut_sides" for side in Side},
 }
-"""The fact that tells each name of a scene, of those that are numbers."""
+"""The fact that tells each name of a scene, of those that calculations have."""
 
 _WORDS: Mapping[str, Mapping[str, str]] = {
     "side_x": {"left": "left of the middle", "right": "right of the middle"},
