@@ -50,6 +50,13 @@ _SUBJECT = re.compile(
 )
 """Verb and subject that begin a question: 'is it', 'does the object'."""
 
+_SIDES_JOINED = re.compile(
+    r"\b(?:left|right|top|bottom|upper|lower|palm|fingertip)(?:[- ]hand)?(?: \w+)? (?:and|or) "
+    r"(?:(?:on|at|over|off|by) )?(?:the )?(?:left|right|top|bottom|upper|lower|palm|fingertip)\b",
+    re.I,
+)
+"""Sides that are no clauses of their own: 'the left and the bottom edge'."""
+
 _ADJECTIVE = re.compile(
     rf"({AUXILIARY} (?:it|this|that) )an? ((?:very )?\w+) (.*)",
     re.I,
@@ -192,7 +199,7 @@ def read_part(question: str) -> Meaning | None:
 
 
 def _ruled(question: str) -> Meaning | None:
-    return ruled(question) if is_one_clause(question) else None
+    return ruled(question) if is_one_clause(_SIDES_JOINED.sub("side", question)) else None
 
 
 def _neither(question: str) -> tuple[Check, ...]:

@@ -32,6 +32,7 @@ from tacgrasp.lessons.dialogue.meaning import (
     Calculated,
     Check,
     Several,
+    Unknowable,
 )
 from tacgrasp.lessons.dialogue.plainer import (
     in_words,
@@ -44,6 +45,7 @@ from tacgrasp.lessons.dialogue.query import (
     query_of,
     read_query,
 )
+from tacgrasp.lessons.dialogue.rules.ruled import ruled_whole
 from tacgrasp.lessons.dialogue.rules.unread import is_beyond
 from tacgrasp.lessons.dialogue.sided_questions import to_named_side
 from tacgrasp.lessons.dialogue.written_units import in_asked_unit, numbers_in_units
@@ -85,8 +87,11 @@ amiss, where a wording of the grammar is not."""
 
 _FOLLOWS = re.compile(r"(?:and|but|then|why|how come|what about|how about|same)\b", re.I)
 
+_EITHER = re.compile(r"\beither\b", re.I)
+
 _STANDS_ALONE = re.compile(
-    r"(?:is|are|isn't|aren't|was|were|does|do|did|has|have|had|can|could|will|would|shall|should|may|might|must)"
+    r"(?:is|are|isn't|aren't|was|were|does|do|did|has|have|had|can|could|will|would|shall|should|"
+    r"may|might|must)"
     r"(?: \S+){2}",
     re.I,
 )
@@ -137,10 +142,15 @@ def understood_by_grammar(question: str, before: str = "") -> ReadQuestion | Non
         return affirmed
     meaning = with_adjective(question) or either_of(question)
     meaning = meaning or understand(question, before=before)
+    if not before and isinstance(meaning, Unknowable):
+        meaning = ruled_whole(plain) or meaning  # 'is it a square' is no question for a name
+    if not before and meaning is None and _EITHER.search(question):
+        meaning = ruled_whole(question)  # plainer text has no 'either'
     if meaning is None and plain != question:
         return understood_by_grammar(plain, before)
     if meaning is None and not before:
-        meaning = chosen(question) or asked_together(question) or calculated(question)
+        meaning = chosen(question) or asked_together(question)
+        meaning = meaning or ruled_whole(question) or calculated(question)
     if meaning is None:
         return _by_other_words(question, before)
     asked = asked_text(question, before)

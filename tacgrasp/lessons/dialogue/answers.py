@@ -167,7 +167,7 @@ def _calculated(asked: Calculated, scene: AskedScene) -> Answer:
     is_of_band = any(test in asked.truth for test in _BAND_TESTS)
     shown = [FACT_OF[name] for name in names_of(asked) if name in FACT_OF]
     shown = ["force_band"] if is_of_band and kind is AnswerKind.CHOICE else shown
-    clauses = [fact(name, scene)[1] for name in shown]
+    clauses = [fact(name, scene)[1] for name in dict.fromkeys(shown)]
     if kind is AnswerKind.CHOICE:
         text = _chosen(str(value), clauses, Expression(asked.truth).choices)
         return Answer(text=text, kind=kind, value=value)

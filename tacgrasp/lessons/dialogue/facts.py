@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from cltp.tactile.states import Shape
+from cltp.tactile.states import Shape, Side
 from cltp.texts.captions import with_article
 from policies.teacher import Reason
 from primitives import Primitive
@@ -65,6 +65,10 @@ FACT_OF: Mapping[str, str] = {
     "contact": "contact",
     "wholeness": "cut",
     "force_band": "force_band",
+    "shape": "shape",
+    "texture": "texture",
+    "area_percent": "area",
+    **{f"cut_{side}": "cut_sides" for side in Side},
 }
 """The fact that tells each name of a scene, of those that have one of their own."""
 

@@ -253,6 +253,14 @@ def test_conditions_of_one_clause_get_one_verdict(question, text):
         ("leftward > 2 mm", "No, x is +0.8 mm."),
         ("Is the offset to the tip at least 1 mm?", "Yes, y is -1.2 mm."),
         ("Force to three decimals.", "0.83 N."),
+        ("Is it a square?", "No, it is an ellipsoid."),
+        ("Hey, is that a star you are holding?", "No, it is an ellipsoid."),
+        ("Not clipped on the left, is it?", "No, the edge of the pad does not cut it."),
+        ("Left edge: does it chop the contact off?", "No, the edge of the pad does not cut it."),
+        ("Either a star or an ellipsoid, am I right?", "Yes, it is an ellipsoid."),
+        ("Over half of the gel remains bare, doesn't it?", "Yes, the contact area is 12 %."),
+        ("How deep is it, and is it a star?", "The depth is 0.19 mm; no."),
+        ("Is it further off sideways or further off up-and-down?", "Up-and-down."),
     ],
 )
 def test_a_rule_reads_what_the_grammar_does_not_compose(question, text):

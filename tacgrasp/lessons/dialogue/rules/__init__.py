@@ -6,5 +6,6 @@ every query would miss is none, so that it is not taken for something near.
 Not here: wordings with their meanings (``tacgrasp.lessons.dialogue.families``), what is left out of
 a question (``tacgrasp.lessons.dialogue.plainer``).
 
-May import: policies, tacgrasp.lessons.dialogue.
+May import: cltp.tactile, policies, tacgrasp.lessons.dialogue,
+tacgrasp.lessons.dialogue.families.classes.
 """

@@ -3,6 +3,7 @@
     Is it touching the edge?            check cut.
     Is it touching the left edge?       check cut left.
     Is it cut off on the palm side?     check cut top.
+    Does it run off the left or top?    calculate cut_left or cut_top.
     Which edge cuts it?                 word cut_sides.
     Is it close to the right edge?      check near right.
 
@@ -24,10 +25,21 @@ _TAG_RIGHT = re.compile(
 )
 _EDGE = r"(?:edges?|rims?|borders?|boundary|boundaries|margins?)"
 _CUT = (
-    r"(?:cuts?|cutting|clip(?:s|ped|ping)?|crop(?:s|ped|ping)?|truncat(?:es|ed|ing)|chopped|lopped|"
-    r"sliced|trimmed|h[au]ng(?:s|ing)? over|stick(?:s|ing)? out|spill(?:s|ing)?|overhang(?:s|ing)?|"
-    r"run(?:s|ning)? (?:off|over|out)|over the edge|outside|off the (?:pad|edge)|"
-    r"out of the (?:pad|sensor|gel))"
+    r"(?:cuts?|cutting|clip(?:s|ped|ping)?|crop(?:s|ped|ping)?|truncat(?:es?|ed|ing)|truncation|"
+    r"chop(?:s|ped|ping)?|lop(?:s|ped|ping)?|slic(?:es?|ed|ing)|trim(?:s|med|ming)?|"
+    r"sever(?:s|ed|ing)?|shear(?:s|ing)? off|sheared|shorn|snip(?:s|ped|ping)?|lost|missing|"
+    r"docked|guillotined|amputat(?:es?|ed|ing)|(?:bit(?:es?|ten|ing)?|eat(?:s|en|ing)?|shav(?:es?|"
+    r"ed|ing)|"
+    r"saw(?:s|n|ing)?|tak(?:es?|en|ing)) (?:\w+ ){0,4}?(?:off|into)|"
+    r"h[au]ng(?:s|ing)? (?:over|off|out)|stick(?:s|ing)? out|pok(?:es?|ed|ing) out|jut(?:s|ting)?|"
+    r"protrud(?:es?|ed|ing)|spill(?:s|ed|ing)?|overhang(?:s|ing)?|overrun(?:s|ning)?|"
+    r"overshoot(?:s|ing)?|overlap(?:s|ped|ping)?|"
+    r"(?:run|runs|running|ran|go|goes|going|went|gone|fall|falls|falling|fallen|fell|slip|slips|"
+    r"slipped|slipping|drop|drops|dropped|slid|slide|slides|bleed|bleeds|bleeding|lap|laps|drop|"
+    r"roll|rolls|rolled|"
+    r"extend|extends|reach|reaches|pass|passes|passed|lie|lies|lying) "
+    r"(?:partly |partially |right )?(?:off|over|out|past|beyond)|"
+    r"over the edge|outside|off the (?:pad|edge)|out of the (?:pad|sensor|gel))"
 )
 _MEETS = (
     r"(?:touch(?:es|ed|ing)?|reach(?:es|ed|ing)?|meets?|meeting|hits?|hitting|cross(?:es|ed|ing)?|"
@@ -50,7 +62,12 @@ _OPEN = re.compile(
     r"^(?:how|why|which|what|where|when|who|by how)\b|\bhow (?:far|close|much|many)\b"
 )
 _MOVES = re.compile(r"\b(?:should|shall|must|move|shift|go|because|if)\b")
-_DENIED = re.compile(r"\b(?:not|no part|nothing|never|free of|clear of)\b")
+_COMPARED = re.compile(r"\b(?:nearer|closer|farther|further|rather)\b.*\bthan\b")
+_NO_PAD = re.compile(r"\b(?:band|range|window|corridor|target|goal|force|limit|squeeze)\b")
+_ASKS_WHICH = re.compile(r"\b(?:which|what)\b")
+_ALL = re.compile(r"\b(?:both|at once|at the same time|and|as well as|plus)\b")
+_OR_BOTH = re.compile(r"\b(?:or|and) (?:perhaps |maybe |even |possibly )?(?:at )?both\b")
+_DENIED = re.compile(r"\b(?:not|no part|nothing|never|free of|clear of|neither|nor)\b")
 
 
 def edge_query(words: str) -> str:
@@ -58,15 +75,24 @@ def edge_query(words: str) -> str:
     words = _TAG_RIGHT.sub("", words)
     if _WHICH.search(words) and _IS_CUT.search(words):
         return "word cut_sides."
-    if "#" in words or _OPEN.search(words) or _MOVES.search(words):
+    if _NO_PAD.search(words):
+        return ""
+    if "#" in words or _OPEN.search(words) or _MOVES.search(words) or _COMPARED.search(words):
         return ""
     named = [side for side, pattern in _SIDES.items() if pattern.search(words)]
     denied = "not " if _DENIED.search(words) else ""
     if not named:
         return f"check {denied}cut." if _MEETS_THE_EDGE.fullmatch(words) else ""
     if _IS_CUT.search(words):
-        if len(named) > 1:
+        if len(named) > 1 and _ASKS_WHICH.search(words):
             return "word cut_sides."
+        if len(named) > 1:
+            is_any = re.search(r"\bn?or\b", words) is not None
+            is_all = _ALL.search(_OR_BOTH.sub("", words)) is not None
+            if is_any == is_all:
+                return ""
+            test = (" or " if is_any else " and ").join(f"cut_{side}" for side in named)
+            return f"calculate not ({test})." if denied else f"calculate {test}."
         return f"check {denied}cut {named[0]}."
     if _IS_AWAY.search(words) and len(named) == 1:
         return f"check {'' if denied else 'not '}near {named[0]}."
