@@ -23,6 +23,8 @@ from torch import Tensor
 from cltp.llm.constrained.grammar import Grammar
 from cltp.llm.generation import Reply
 from tacgrasp.lessons.dialogue.calculations.calculated import calculated
+from tacgrasp.lessons.dialogue.clauses.clauses import clauses_of, judged_as_one
+from tacgrasp.lessons.dialogue.clauses.speech import asked_in_speech
 from tacgrasp.lessons.dialogue.conditions import check_of
 from tacgrasp.lessons.dialogue.families.catalogue import understand
 from tacgrasp.lessons.dialogue.families.misspelled import respelled
@@ -50,6 +52,7 @@ from tacgrasp.lessons.joined_questions import (
     asked_together,
     either_of,
     is_either,
+    read_part,
     with_adjective,
 )
 from tacgrasp.lessons.query_classifier import QueryOdds
@@ -138,7 +141,8 @@ def understood_by_grammar(question: str, before: str = "") -> ReadQuestion | Non
     if meaning is None and plain != question:
         return understood_by_grammar(plain, before)
     if meaning is None and not before:
-        meaning = asked_together(question) or calculated(question)
+        meaning = judged_as_one(question) or asked_together(question) or calculated(question)
+        meaning = meaning or clauses_of(question, read_part)
     if meaning is None:
         return _by_other_words(question, before)
     asked = asked_text(question, before)
@@ -159,7 +163,10 @@ def _by_other_words(question: str, before: str) -> ReadQuestion | None:
     for plain in (respelled(question), alone_asked(question)):
         if plain != question:
             return understood_by_grammar(plain, before)
-    return None
+    if before:
+        return None
+    told = (understood_by_grammar(each) for each in asked_in_speech(question))
+    return next((read for read in told if read is not None), None)
 
 
 def understood_by_model(
