@@ -25,12 +25,15 @@ from cltp.llm.generation import Reply
 from tacgrasp.lessons.dialogue.calculations.calculated import calculated
 from tacgrasp.lessons.dialogue.choices.choosing import chosen
 from tacgrasp.lessons.dialogue.choices.own_words import in_its_words
+from tacgrasp.lessons.dialogue.clauses.clauses import clauses_of, judged_as_one
+from tacgrasp.lessons.dialogue.clauses.speech import asked_in_speech
 from tacgrasp.lessons.dialogue.conditions import check_of
 from tacgrasp.lessons.dialogue.families.catalogue import understand
 from tacgrasp.lessons.dialogue.families.misspelled import respelled
 from tacgrasp.lessons.dialogue.meaning import (
     Calculated,
     Check,
+    Meaning,
     Several,
     Unknowable,
 )
@@ -54,6 +57,7 @@ from tacgrasp.lessons.joined_questions import (
     asked_together,
     either_of,
     is_either,
+    read_part,
     with_adjective,
 )
 from tacgrasp.lessons.query_classifier import QueryOdds
@@ -149,8 +153,7 @@ def understood_by_grammar(question: str, before: str = "") -> ReadQuestion | Non
     if meaning is None and plain != question:
         return understood_by_grammar(plain, before)
     if meaning is None and not before:
-        meaning = chosen(question) or asked_together(question)
-        meaning = meaning or ruled_whole(question) or calculated(question)
+        meaning = _composed(question)
     if meaning is None:
         return _by_other_words(question, before)
     asked = asked_text(question, before)
@@ -168,12 +171,27 @@ def understood_by_grammar(question: str, before: str = "") -> ReadQuestion | Non
     return _in_its_words(question, _as_one(question, ReadQuestion(query, read, sure)))
 
 
+def _composed(question: str) -> Meaning | None:
+    """What a question means by the first reader that accounts for all of it."""
+    return (
+        chosen(question)
+        or judged_as_one(question)
+        or asked_together(question)
+        or ruled_whole(question)
+        or calculated(question)
+        or clauses_of(question, read_part)
+    )
+
+
 def _by_other_words(question: str, before: str) -> ReadQuestion | None:
     """What a question means by the grammar once slips, or remarks beside it, are taken out."""
     for plain in (respelled(question), alone_asked(question)):
         if plain != question:
             return understood_by_grammar(plain, before)
-    return None
+    if before:
+        return None
+    told = (understood_by_grammar(each) for each in asked_in_speech(question))
+    return next((read for read in told if read is not None), None)
 
 
 def understood_by_model(

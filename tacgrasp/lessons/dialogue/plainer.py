@@ -140,7 +140,7 @@ def is_denied_first(question: str) -> bool:
 
 def plainer(question: str) -> str:
     """A question without address, thanks and tag, and without the denial that expects 'yes'."""
-    text = _metric(" ".join(question.split()))
+    text = metric(" ".join(question.split()))
     if opening := _ADDRESS.match(text):
         text = text[opening.end() :]
     text = _ADDED.sub("", _POLITE_VERB.sub("", text, count=1))
@@ -156,7 +156,7 @@ def plainer(question: str) -> str:
     return turned(text) or question
 
 
-def _metric(text: str) -> str:
+def metric(text: str) -> str:
     """A text with words for signs, and numbers in units that queries have."""
     text = with_products(in_words(text))
     digits = in_digits(text.lower())

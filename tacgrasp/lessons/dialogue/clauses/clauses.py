@@ -1,0 +1,53 @@
+"""The meaning of a question by its clauses: a verdict, a threshold, a list, or nothing felt.
+
+Not here: each of them (``verdicts``, ``thresholds``, ``lists``, ``unfelt``).
+"""
+
+from __future__ import annotations
+
+import re
+
+from tacgrasp.lessons.dialogue.clauses.items import item_of
+from tacgrasp.lessons.dialogue.clauses.lists import Reader, listed
+from tacgrasp.lessons.dialogue.clauses.thresholds import kept
+from tacgrasp.lessons.dialogue.clauses.unfelt import unfelt_query
+from tacgrasp.lessons.dialogue.clauses.verdicts import judged
+from tacgrasp.lessons.dialogue.meaning import Meaning, Part
+from tacgrasp.lessons.dialogue.query import asked_text, read_query
+
+_OPEN = re.compile(r"(?:how|what|which|where|whereabouts|give|tell|name|state|report|show)\b", re.I)
+
+_SINGLE = ("force", "depth", "area", "distance", "holds", "position", "shape", "texture")
+"""What a question may ask for alone; the grammar knows the others better."""
+
+_AS_ONE = re.compile(
+    r"\b(?:both|all)(?: (?:of )?(?:these|them|three|four|those|the following|conditions|boxes|this|"
+    r"that))?\b.*"
+    r"\b(?:true|right|hold|met|so|correct|ok|okay|satisfied|the case|fulfilled|apply)\b",
+    re.I,
+)
+
+
+def judged_as_one(question: str) -> Meaning | None:
+    """The one verdict on what a question wants to hold all at once; None of other questions."""
+    return judged(question) if _AS_ONE.search(question) else None
+
+
+def clauses_of(question: str, read: Reader) -> Meaning | None:
+    """What a question means by its clauses; None where one of them has no meaning here.
+
+    Args:
+        question: The question.
+        read: Reads one clause of a list in another way.
+    """
+    if meaning := judged(question) or kept(question) or listed(question, read):
+        return meaning
+    if _OPEN.match(question) and _is_single(item := item_of(question)):
+        return item
+    query = unfelt_query(asked_text(question).words)
+    return read_query(query) if query else None
+
+
+def _is_single(item: Part | None) -> bool:
+    name = getattr(item, "quantity", None) or getattr(item, "name", None)
+    return name in _SINGLE

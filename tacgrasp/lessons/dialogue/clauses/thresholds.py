@@ -1,0 +1,151 @@
+"""Thresholds that one sentence sets, and another one asks whether they are kept.
+
+    I want no more than 800 mN on this tissue. Have we exceeded that?      force_n > 0.8
+    The plaster may bear 0.9 N at the very most; are we beneath it?         force_n < 0.9
+    It weighs 250 g. Will the grip surely hold that?                        holds_g >= 250
+
+Not here: rules that are stated and judged in one (``tacgrasp.lessons.dialogue.clauses.verdicts``).
+"""
+
+from __future__ import annotations
+
+import re
+
+from tacgrasp.lessons.dialogue.clauses.comparing import compared
+from tacgrasp.lessons.dialogue.clauses.plain_clause import numbered
+from tacgrasp.lessons.dialogue.clauses.word_sets import words_of
+from tacgrasp.lessons.dialogue.meaning import Calculated
+
+_PARTS = re.compile(
+    r"\s*(?:[.;:!?–—]|,? (?:so|and|but)(?=,? (?:is|are|have|has|do|does|did|am|will)\b)|,)\s+"
+)
+_SETTING = words_of(
+    "want wants wanted need needs allow allows allowed permit permits permitted tolerate tolerates "
+    "tolerated accept accepts accepted bear bears take takes stand stands withstand withstands "
+    "survive survives handle handles endure endures limit threshold spec specification says tops "
+    "rule cap ceiling set ordered told customer boss supervisor client budget aim aiming target "
+    "asked agreed demand demands require requires required requirement promised bruise bruises "
+    "break breaks crack cracks burst bursts tear tears damage damaged damages fragile delicate "
+    "maximum minimum max min drawing calls calling must should order sheet says manual data that "
+    "this prefer insist insists strict strictly hard upper lower per"
+)
+_IT = (
+    r"(?:it|that|this|those|them|the (?:limit|mark|figure|number|value|line|threshold|cap|ceiling|"
+    r"rule|amount|level|spec|bound|target|maximum|minimum|requirement)|that (?:limit|mark|figure|"
+    r"number|value|line|threshold|cap|ceiling|rule|amount|level|spec|bound|target|maximum|minimum|"
+    r"much|requirement))"
+)
+_WE = r"(?:we|you|i|it|this|the (?:grip|force|contact|touch|gripper|robot|squeeze|reading|press))"
+_VERB = r"(?:is|are|am|have|has|do|does|did|was|were|will|would|can|could)"
+_STILL = r"(?:still |now |already |currently |really |staying |being |gone |been |indeed |both )*"
+_OVER = re.compile(
+    rf"(?:{_VERB} {_WE} )?{_STILL}(?:exceed(?:ed|ing)?|over|above|past|beyond|surpass(?:ed|ing)?|"
+    rf"passed|overshot|more than|higher than|gone over|topping)(?: {_IT})?(?: (?:now|already|yet))*"
+)
+_UNDER = re.compile(
+    rf"(?:{_VERB} {_WE} )?{_STILL}(?:under|below|beneath|less than|lower than|short of|"
+    rf"shy of)(?: {_IT})?(?: (?:now|already|yet))*"
+)
+_KEPT = re.compile(
+    rf"(?:{_VERB} (?:{_WE}|{_IT}) )?{_STILL}(?:within|inside|in|keeping (?:to|within)|"
+    r"respect(?:ed|ing)?|kept|met|meet(?:ing)?|ok|okay|fine|safe|good|alright|satisfied|obeyed|"
+    r"observed|"
+    rf"compl(?:y|ying|iant)|pass(?:ing|es)?|held|sticking to|all right)(?: (?:to |with )?{_IT})?"
+    r"(?: (?:now|here|then|so far))*"
+)
+_BROKEN = re.compile(
+    rf"(?:{_VERB} (?:{_WE}|{_IT}) )?{_STILL}(?:violat(?:ed|ing)|broken|breach(?:ed|ing)?|"
+    r"break(?:ing)?|"
+    rf"overstepp(?:ed|ing)|crossed|outside|fail(?:ed|ing)?)(?: {_IT})?"
+)
+_REACHED = re.compile(
+    rf"(?:{_VERB} (?:{_WE}|{_IT}) )?{_STILL}(?:reach(?:ed|ing)?|hit|there|at|got to|"
+    rf"made)(?: {_IT})?"
+    r"(?: (?:now|already|yet))*"
+)
+_HOLDS = re.compile(
+    rf"(?:{_VERB}) (?:{_WE}|the \w+) (?:surely |safely |certainly |definitely |be able to |really |"
+    r"reliably |sure to |certain to |guaranteed to )*(?:hold|carry|lift|keep|support|bear|"
+    r"enough for|suffice|"
+    rf"manage)(?: (?:{_IT}|the \w+|on to (?:it|that)))?"
+    r"(?: (?:for (?:sure|certain)|safely|surely|without (?:slipping|a slip|dropping it)|securely|"
+    r"now))*"
+)
+_SLIPS = re.compile(
+    rf"(?:{_VERB}) (?:{_WE}|the \w+) (?:going to |likely to |gonna )?(?:slip|drop|fall|lose|slide)"
+    r"(?: (?:it|away|out|off|down|through|from \w+))*"
+)
+_WEIGHS = re.compile(
+    r"(?:(?:it|this|that|(?:the|this|that|my|our) (?:\w+ )?\w+)(?: (?:here|"
+    r"one))? (?:weighs?(?: in)?|has a (?:mass|weight) of|is|comes (?:to|in)|brings)(?: (?:in at|at|"
+    r"about|to|on the scale))*|(?:the|its) (?:mass|weight)(?: of \w+(?: \w+)?)? is|mass|"
+    r"weight) #(?P<n>\d+) (?P<unit>g|grams?|kg|kilos?|kilograms?)(?: heavy)?|"
+    r"#(?P<n2>\d+) (?P<unit2>g|grams?|kg|kilos?|kilograms?)(?: \w+)?"
+)
+_FLIPPED = {">": "<=", "<=": ">", "<": ">=", ">=": "<"}
+_NAMED = re.compile(
+    r"(?!.*\b(?:temperature|speed|torque|friction|shear)\b)(?:[a-z]+ ){1,4}(?=(?:survives?|bears?|"
+    r"takes?|stands?|withstands?|tolerates?|endures?|handles?|allows?|says?|breaks?|cracks?|"
+    r"bursts?|tears?|bruises?|wants?|needs?) )"
+)
+"""Whatever it is that bears so much: 'grandma's vase survives'."""
+
+_HARMS = re.compile(
+    r"(?:anything|everything|whatever|all|whoever) (?:is )?(?:(?P<more>above|over|beyond|past|"
+    r"more than|higher than|exceeding)|below|under|less than) (?P<number>#1 (?:n|mn|newtons?|"
+    r"millinewtons?)) (?:(?:will|would|can|could|is|gets|may|might) )*(?:bruis\w+|break\w*|"
+    r"crack\w*|crush\w*|ruin\w*|damag\w+|spoil\w*|tear\w*|burst\w*|kill\w*|destroy\w*|too (?:much|"
+    r"little|hard|weak|strong)|forbidden|out|not allowed|a reject|rejected|useless|unsafe|"
+    r"dent\w*)(?: \w+){0,3}"
+)
+_TOLD = re.compile(r"(?P<what>.+) (?P<sign>>=|<=|>|<) (?P<number>-?[\d.]+)")
+_AT = re.compile(
+    r"(?P<a>.*\b(?:limit|maximum|max|cap|ceiling|threshold|most|minimum|least|bruises?|breaks?|"
+    r"cracks?|bursts?|tears?|damaged?)\b.*?) (?:is|at|of|from|was)? ?(?=#1)"
+)
+
+
+def kept(question: str) -> Calculated | None:
+    """Whether a threshold that a sentence sets is kept or passed; None of other questions."""
+    text = " ".join(question.split())
+    for joint in reversed(list(_PARTS.finditer(text))):
+        asked = numbered(text[joint.end() :])[0]
+        if "#" in asked or not asked:
+            continue
+        setting, numbers = numbered(text[: joint.start()])
+        if truth := _truth(setting, numbers, asked):
+            return Calculated(truth=truth, unit=None)
+    return None
+
+
+def _truth(setting: str, numbers: tuple[float, ...], asked: str) -> str:
+    if weighs := _WEIGHS.fullmatch(setting):
+        is_kilos = (weighs["unit"] or weighs["unit2"]).startswith("k")
+        grams = numbers[int(weighs["n"] or weighs["n2"]) - 1] * (1000 if is_kilos else 1)
+        if _HOLDS.fullmatch(asked):
+            return f"holds_g >= {grams:g}"
+        return f"holds_g < {grams:g}" if _SLIPS.fullmatch(asked) else ""
+    if named := _NAMED.match(setting):
+        setting = f"it {setting[named.end() :]}"
+    if broken := _HARMS.fullmatch(setting):
+        setting = f"force {'at most' if broken['more'] else 'at least'} {broken['number']}"
+        setting = setting if " n" in broken["number"] or " mn" in broken["number"] else ""
+    rule = compared(setting, numbers, known=_SETTING)
+    if not rule and (found := _AT.match(setting)):
+        least = re.search(r"\b(?:minimum|least)\b", found["a"]) is not None
+        rule = compared(
+            f"{setting[: found.end()]}at {'least' if least else 'most'} {setting[found.end() :]}",
+            numbers, known=_SETTING,
+        )  # fmt: skip
+    told = _TOLD.fullmatch(rule)
+    if told is None:
+        return ""
+    denied = re.search(r"\bnot\b", asked) is not None
+    asked = " ".join(re.sub(r"\bnot\b", "", asked).split())
+    what, sign, number = told["what"], told["sign"], told["number"]
+    for pattern, meant in (
+        (_OVER, ">"), (_UNDER, "<"), (_KEPT, sign), (_BROKEN, _FLIPPED[sign]), (_REACHED, ">="),
+    ):  # fmt: skip
+        if pattern.fullmatch(asked):
+            return f"{what} {_FLIPPED[meant] if denied else meant} {number}"
+    return ""
