@@ -23,6 +23,7 @@ from torch import Tensor
 from cltp.llm.constrained.grammar import Grammar
 from cltp.llm.generation import Reply
 from tacgrasp.lessons.dialogue.calculations.calculated import calculated
+from tacgrasp.lessons.dialogue.calculations.suppositions import begins_supposed
 from tacgrasp.lessons.dialogue.conditions import check_of
 from tacgrasp.lessons.dialogue.families.catalogue import understand
 from tacgrasp.lessons.dialogue.families.misspelled import respelled
@@ -44,7 +45,11 @@ from tacgrasp.lessons.dialogue.query import (
 )
 from tacgrasp.lessons.dialogue.rules.unread import is_beyond
 from tacgrasp.lessons.dialogue.sided_questions import to_named_side
-from tacgrasp.lessons.dialogue.written_units import in_asked_unit, numbers_in_units
+from tacgrasp.lessons.dialogue.written_units import (
+    in_asked_unit,
+    numbers_in_units,
+    with_counted_parts,
+)
 from tacgrasp.lessons.divided_questions import divided
 from tacgrasp.lessons.joined_questions import (
     asked_together,
@@ -135,10 +140,14 @@ def understood_by_grammar(question: str, before: str = "") -> ReadQuestion | Non
         return affirmed
     meaning = with_adjective(question) or either_of(question)
     meaning = meaning or understand(question, before=before)
+    in_usual = with_counted_parts(question, as_usual=True)
+    if meaning is None and in_usual != question:
+        meaning = understand(in_usual, before=before)
     if meaning is None and plain != question:
         return understood_by_grammar(plain, before)
     if meaning is None and not before:
-        meaning = asked_together(question) or calculated(question)
+        meaning = calculated(question) if begins_supposed(question) else None
+        meaning = meaning or asked_together(question) or calculated(question)
     if meaning is None:
         return _by_other_words(question, before)
     asked = asked_text(question, before)
