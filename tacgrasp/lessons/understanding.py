@@ -23,6 +23,7 @@ from torch import Tensor
 from cltp.llm.constrained.grammar import Grammar
 from cltp.llm.generation import Reply
 from tacgrasp.lessons.dialogue.calculations.calculated import calculated
+from tacgrasp.lessons.dialogue.calculations.suppositions import begins_supposed
 from tacgrasp.lessons.dialogue.choices.choosing import chosen
 from tacgrasp.lessons.dialogue.choices.own_words import in_its_words
 from tacgrasp.lessons.dialogue.clauses.clauses import clauses_of, judged_as_one
@@ -51,7 +52,11 @@ from tacgrasp.lessons.dialogue.query import (
 from tacgrasp.lessons.dialogue.rules.ruled import ruled_whole
 from tacgrasp.lessons.dialogue.rules.unread import is_beyond
 from tacgrasp.lessons.dialogue.sided_questions import to_named_side
-from tacgrasp.lessons.dialogue.written_units import in_asked_unit, numbers_in_units
+from tacgrasp.lessons.dialogue.written_units import (
+    in_asked_unit,
+    numbers_in_units,
+    with_counted_parts,
+)
 from tacgrasp.lessons.divided_questions import divided
 from tacgrasp.lessons.joined_questions import (
     asked_together,
@@ -150,6 +155,9 @@ def understood_by_grammar(question: str, before: str = "") -> ReadQuestion | Non
         meaning = ruled_whole(plain) or meaning  # 'is it a square' is no question for a name
     if not before and meaning is None and _EITHER.search(question):
         meaning = ruled_whole(question)  # plainer text has no 'either'
+    in_usual = with_counted_parts(question, as_usual=True)
+    if meaning is None and in_usual != question:
+        meaning = understand(in_usual, before=before)
     if meaning is None and plain != question:
         return understood_by_grammar(plain, before)
     if meaning is None and not before:
@@ -174,7 +182,8 @@ def understood_by_grammar(question: str, before: str = "") -> ReadQuestion | Non
 def _composed(question: str) -> Meaning | None:
     """What a question means by the first reader that accounts for all of it."""
     return (
-        chosen(question)
+        (calculated(question) if begins_supposed(question) else None)
+        or chosen(question)
         or judged_as_one(question)
         or asked_together(question)
         or ruled_whole(question)

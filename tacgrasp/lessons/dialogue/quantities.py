@@ -23,14 +23,16 @@ class Unit:
     """A unit.
 
     Attributes:
-        symbol: As answers write it.
-        dimension: What it measures: length, force, fraction, area or mass.
-        size: Its size in mm, N, percent, mm² or g.
+        symbol: As queries write it.
+        dimension: What it measures: length, force, fraction, area, mass or pressure.
+        size: Its size in mm, N, percent, mm², g or N/mm².
+        written: As answers write it; '' for the symbol.
     """
 
     symbol: str
     dimension: str
     size: float
+    written: str = ""
 
 
 UNITS: Mapping[str, Unit] = {
@@ -59,6 +61,18 @@ UNITS: Mapping[str, Unit] = {
         Unit(symbol="mg", dimension="mass", size=1e-3),
         Unit(symbol="lb", dimension="mass", size=453.59237),
         Unit(symbol="oz", dimension="mass", size=28.349523),
+        Unit(symbol="dmm", dimension="length", size=0.1, written="tenths of a mm"),
+        Unit(symbol="cmm", dimension="length", size=0.01, written="hundredths of a mm"),
+        Unit(symbol="dN", dimension="force", size=0.1, written="tenths of a newton"),
+        Unit(symbol="N/mm²", dimension="pressure", size=1.0),
+        Unit(symbol="N/cm²", dimension="pressure", size=1e-2),
+        Unit(symbol="Pa", dimension="pressure", size=1e-6),
+        Unit(symbol="hPa", dimension="pressure", size=1e-4),
+        Unit(symbol="kPa", dimension="pressure", size=1e-3),
+        Unit(symbol="MPa", dimension="pressure", size=1.0),
+        Unit(symbol="mbar", dimension="pressure", size=1e-4),
+        Unit(symbol="bar", dimension="pressure", size=0.1),
+        Unit(symbol="psi", dimension="pressure", size=6.8947573e-3),
     )
 }
 """Units by symbol. Grams also stand for the force that they weigh."""
@@ -216,6 +230,7 @@ def amount_text(
     if unit == "%":
         return f"{sign if value >= 0 else '-'}{percent_text(abs(value))} %"
     shown = round(value, quantity.decimals) + 0.0  # no minus before zeros
+    written = UNITS[unit].written or unit
     if unit == quantity.unit:
         return f"{shown:{sign}.{quantity.decimals}f} {unit}"
     converted = _in_unit(quantity, value if UNITS[unit].dimension == "area" else shown, unit, scene)
@@ -226,13 +241,14 @@ def amount_text(
         decimals = quantity.decimals + math.ceil(math.log10(size) - 1e-9)
     else:
         decimals = 0 if abs(converted) >= 10 else 1
-    return f"{converted:{sign}.{decimals}f} {unit}"
+    return f"{converted:{sign}.{decimals}f} {written}"
 
 
 def value_text(value: float, unit: str) -> str:
-    """A calculated value, given in mm, N, percent, mm² or g, as text in a unit.
+    """A calculated value, given in mm, N, percent, mm², g or N/mm², as text in a unit.
 
-    The unit is '' for a ratio, and may be a quotient of two ('N/mm').
+    The unit is '' for a ratio, and may be a quotient of two ('N/mm'). Pressures and small
+    quotients have three figures.
     """
     if unit == "%":
         return f"{'-' if value < 0 else ''}{percent_text(abs(value))} %"
@@ -241,7 +257,12 @@ def value_text(value: float, unit: str) -> str:
     size = known.size if known else UNITS[one].size / UNITS[each].size if each else 1.0
     base = 0 if known and known.dimension == "mass" else 2 if abs(value) >= 0.1 else 3
     decimals = max(0, base + round(math.log10(size)))
-    return f"{round(value / size, decimals) + 0.0:.{decimals}f} {unit}".rstrip()
+    told = abs(value / size)
+    is_rate = bool(each and not known) or (known is not None and known.dimension == "pressure")
+    if is_rate and told > 0 and (told < 1 or known is not None or decimals == 0):
+        decimals = max(0, 2 - math.floor(math.log10(told)))
+    written = (known.written if known else "") or unit
+    return f"{round(value / size, decimals) + 0.0:.{decimals}f} {written}".rstrip()
 
 
 def can_be_in(name: str, unit: str) -> bool:

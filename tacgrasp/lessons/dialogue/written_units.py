@@ -45,6 +45,9 @@ _FOREIGN: Mapping[str, tuple[str, ...]] = {
     r"mg|milligrams?": ("mg",),
     r"cm²|cm #|(?:square|sq) (?:cm|centimet(?:re|er)s?)": ("cm²",),
     r"in²|(?:square|sq) inch(?:es)?": ("in²",),
+    r"decimillimetres": ("dmm",),
+    r"centimillimetres": ("cmm",),
+    r"decinewtons": ("dN",),
 }
 """Units that the language model does not ask for, with the units of answers."""
 
@@ -53,6 +56,20 @@ _ASKED: Mapping[str, tuple[str, ...]] = {
     **{spelled: (unit,) for spelled, unit in SPELLED.items()},
 }
 _SAID_UNIT = "|".join(_ASKED)
+_COUNTED_PARTS = re.compile(
+    r"(?<![\d.] )(?<!\bto )(?<!\b(?:one|two|six|ten) )(?<!\b(?:four|five|nine) )"
+    r"(?<!\b(?:three|seven|eight) )\b(?P<part>tenths|hundredths|thousandths)"
+    r"(?: of (?:an? |1 )?| )(?P<unit>mm\b|millimet(?:re|er)s?\b|newtons?\b|n\b)|"
+    r"\b(?:mm|millimet(?:re|er)) (?P<behind>tenths|hundredths)\b|"
+    r"\b(?P<joined>tenth|hundredth)[ -](?:mm\b|millimet(?:re|er)s\b)",
+    re.I,
+)
+_PARTS: Mapping[str, tuple[str, str]] = {
+    "tenth": ("decimillimetres", "decinewtons"),
+    "hundredth": ("centimillimetres", "centinewtons"),
+    "thousandth": ("microns", "millinewtons"),
+}
+"""Words for parts of a millimetre, and of a newton, that are counted as units."""
 _ASKED_UNIT = re.compile(
     rf"\b(?:in|as|how many|how much) (?:(?:plain|whole|full) )?({_SAID_UNIT})(?![^ ])"
     rf"|(?<!# )(?<![^ ])(?=\w\w)({_SAID_UNIT})$"
@@ -61,6 +78,26 @@ _ASKED_UNIT = re.compile(
 
 _AMOUNT = re.compile(r"amount (\w+(?: (?!- )[a-z]\w*)?)( #\d \w+)? (\S+?)(?= in a |\.|;|$)")
 _OF_MASSES = re.compile(r"\b(?:slips|stays|holds|mass|spare|needed)\b")
+
+
+def with_counted_parts(text: str, *, as_usual: bool = False) -> str:
+    """A text with one word for each unit that is a part of one: 'in tenths of a millimetre'.
+
+    'Three tenths of a millimetre' is a number, and 'to tenths of a millimetre' rounds one.
+
+    Args:
+        text: The text.
+        as_usual: Whether the usual unit of the same dimension takes the place.
+    """
+
+    def word(match: re.Match[str]) -> str:
+        is_force = (match["unit"] or "m").lower().startswith("n")
+        if as_usual:
+            return "newtons" if is_force else "microns"
+        part = (match["part"] or match["behind"] or match["joined"]).lower().removesuffix("s")
+        return _PARTS[part][is_force]
+
+    return _COUNTED_PARTS.sub(word, text)
 
 
 def numbers_in_units(query: str, words: str, numbers: Sequence[float]) -> tuple[float, ...] | None:

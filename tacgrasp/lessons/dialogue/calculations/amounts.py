@@ -19,6 +19,9 @@ from tacgrasp.lessons.dialogue.calculations.differences import (
     missing,
     taken,
 )
+from tacgrasp.lessons.dialogue.calculations.footprints import circle, pressure
+from tacgrasp.lessons.dialogue.calculations.loads import load, needed, safety_factor
+from tacgrasp.lessons.dialogue.calculations.scales import on_scale
 from tacgrasp.lessons.dialogue.calculations.shares import ratio, share, unused, whole_share
 from tacgrasp.lessons.dialogue.calculations.terms import PLAIN, UNSAID, Term, in_mm2, in_newtons
 from tacgrasp.lessons.dialogue.meaning import Calculated
@@ -52,7 +55,7 @@ _ALONE = re.compile(
 def calculated_amount(asked: AskedWords) -> Calculated | None:
     """The number that a question asks to calculate; None where it asks for none."""
     readers: tuple[Callable[[AskedWords], Term | None], ...] = (
-        unused, share, ratio, missing, apart, taken, from_point, whole_share, into_band,
+        pressure, circle, on_scale, safety_factor, needed, load, unused, share, ratio, missing, apart, taken, from_point, whole_share, into_band,
         _counted, _weight, _stood_at, _alone,
     )  # fmt: skip
     for reader in readers:
@@ -124,5 +127,7 @@ def _alone(asked: AskedWords) -> Term | None:
     if term is None:
         return None
     is_simple = re.fullmatch(r"\w+", term.expression) is not None
+    if is_simple and asked.unit and term.expression not in ("x_mm", "y_mm", "100"):
+        return term
     in_force = term.is_weight and asked.unit in ("N", "mN")
     return term if in_force or not is_simple else None

@@ -6,7 +6,7 @@ Not here: what it asks (``tacgrasp.lessons.dialogue.calculations.calculated``).
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from tacgrasp.lessons.dialogue.calculations.quantity_names import UNIT, is_band, unit_of
@@ -20,6 +20,7 @@ _USUAL: Mapping[str, tuple[str, str]] = {
     "length": ("depth_mm", "mm"),
     "mass": ("mass_g", "g"),
     "fraction": ("area_percent", "%"),
+    "pressure": ("force_n / area_mm2", "kPa"),
 }
 """What a pronoun stands for beside a dimension ('how far below 2 N are we'), and its unit."""
 
@@ -36,16 +37,54 @@ _GRAVITY = re.compile(
 )
 _LEADING = re.compile(
     r"^(?:(?:please|kindly|express|tell me|give me|state|say|report|compute|calculate|work out|"
-    r"determine|now|well|ok|then|and|so|hmm+|um+|uh+|for (?:my|the|our|your) \w+|roughly|"
-    r"approximately|exactly|(?:i |we )?(?:want|need|would like) to know|let me know|i ask|"
-    r"(?:can|could|would|will) you (?:tell me|say|work out|calculate)) )+"
+    r"determine|figure out|find|find me|show me|name|quote|put|now|well|ok|okay|right|then|and|so|"
+    r"hmm+|um+|uh+|for (?:my|the|our|your) (?:log|notes?|record|report|minutes|sheet|table|file|"
+    r"book|boss|form|spec|calc|sums?)|just|roughly|"
+    r"approximately|exactly|(?:i |we )?(?:want|need|would like)(?: to know)?(?! to\b)|let me know|"
+    r"i ask|i wonder|tell us|give us|how about|what about|any idea|"
+    r"(?:can|could|would|will) you (?:tell me|say|work out|calculate|give me|figure out)) )+"
+)
+_MORE = r"(?:more|further|extra|additional)"
+_CLAIMED = re.compile(
+    r"^(?:(?:true or false|yes or no|right or wrong|(?:confirm|verify|check)(?: for me)?"
+    r"(?: (?:that|whether|if))?|(?:is it|would it be|am i) (?:true|correct|right|fair|so|the case)"
+    r"(?: (?:that|to say(?: that)?|in (?:saying|thinking)(?: that)?))?|"
+    r"(?:would|can|could|do) (?:you|i|we) (?:say|agree|confirm|think)(?: that)?|"
+    r"i (?:take it|believe|assume|guess|think)(?: that)?) )+"
+    r"(?!(?:is|are|does|do|has|have|would|will|can|could)\b)"
+)
+_CLAIM_TAG = re.compile(
+    r" (?:(?:is|am i|are we) )?(?:(?:that|it|this|i) )?(?:yes or no|true or false|right or wrong|"
+    r"y or n|right|correct|true|agreed|yes|no)$"
 )
 _IN_UNIT = re.compile(
-    rf"(?: (?:measured|expressed|given|said|stated))? (?:in|as) (?:plain |whole )?({UNIT})(?= |$)"
+    rf"(?:(?: (?:measured|expressed|given|said|stated|counting|counted))? (?:in|as)|"
+    rf"^(?:counting |measured |expressed )?in) (?:plain |whole )?({UNIT})(?= |$)"
 )
+_LAST_UNIT = re.compile(
+    rf"(?<!#\d)(?<!\bper)(?<!\ba)(?<!\bone)(?<!\bof)(?<!\bby)(?<!\bthan) "
+    rf"({UNIT})(?: (?:that|it) is)?$"
+)
+"""A unit at the end, behind a comma: 'the new force, N'."""
+
+_FIRST_UNIT = re.compile(
+    rf"^(?:(?:number of|spare|remaining|{_MORE}) )*({UNIT})"
+    r"(?: of (?:force|grip|squeeze|travel|indentation|depth|gel travel|load))? "
+    r"(?=(?:left|short|needed|required|missing|lacking|to|remaining|over|above|below|under|"
+    r"until|till|before|from|between|in (?:hand|reserve)|up to|still|available|i|we|you|"
+    r"spare|away|shy|past|beyond|surely|safely|certainly|held|guaranteed)\b)"
+)
+"""A unit that begins a question without 'how many': 'mm of travel left'."""
+
 _MANY = re.compile(
-    rf"\b(?:how many(?: (?:more|further|additional|extra))?|what|which|how much) "
-    rf"({UNIT})\b(?! of\b)"
+    rf"\b(?:how many(?: (?:{_MORE}|whole))?|what|which|how much) "
+    rf"({UNIT})\b(?! of (?:the |our )?(?!force|grip|squeeze|pressure|indentation|travel|load|it))"
+    rf"(?: of (?:force|grip|squeeze|indentation|travel)\b)?(?: {_MORE}\b)?"
+)
+_EXTRA = re.compile(
+    rf"^{_MORE} |\bhow (?:much|many)(?: (?:{UNIT}))? {_MORE}\b|\bhow many {_MORE} "
+    rf"(?:{UNIT})\b|\b(?:{_MORE}) (?:force|grip|squeeze|indentation)\b|"
+    r"\bhow much (?:stronger|harder|firmer|tighter)\b"
 )
 _AS_RATIO = re.compile(
     r"(?: (?:expressed )?)?as (?:a )?(?:plain |simple |decimal |bare )?(?:fraction|number|"
@@ -64,8 +103,8 @@ _ONE_MORE = re.compile(
     rf"({UNIT})\b"
 )
 _PER_UNIT = re.compile(
-    rf"(?: (?:in|how (?:many|much)) | )(?P<one>{UNIT}) per "
-    rf"(?P<each>{UNIT})(?: (?:is|are|does|do) (?:that|it|this)(?: \w+)*)?$"
+    rf"(?: (?:in|how (?:many|much)) | |^how (?:many|much) |^in |^)(?P<one>{UNIT}) per "
+    rf"(?P<each>{UNIT})(?: (?:is|are|does|do) (?:that|it|this)(?: \w+)*| on average)?$"
 )
 _EXTRA_ONE = re.compile(rf"\bone extra (?={UNIT}\b)|\banother (?=half (?:an? )?(?:{UNIT})\b)")
 _FULL_ONE = re.compile(rf"\b(?:one|an?) (?:full|whole|single) (?={UNIT}\b)")
@@ -76,6 +115,8 @@ _HOLD_ALL = re.compile(
     r"(?:hold|holds|true|met|satisfied|the case|so)[:,]? "
 )
 _WERE_TO = re.compile(r"^(?:were|should|if) (i|we|you|it|the \w+) (?:were )?to ")
+_HAD = re.compile(r"^had (?=(?:i|we|you|it|the \w+) \w+ed\b)")
+_OR_NOT = re.compile(r" or (?:not|no)$")
 _KEEPING_SIGNS = re.compile(r",? (?:keeping|with|counting) (?:the|their) signs?\b")
 _AT_ONCE = re.compile(r" (?:at the same time|simultaneously|together|at once)$")
 _GIVEN_MASS = re.compile(
@@ -88,8 +129,22 @@ _AMOUNT_OF = re.compile(
     r"^(?:by )?(?:what|which) (?:amount|distance)\b|^what(?: is|"
     r" are)?(?= (?:still )?(?:missing|lacking|left)\b)"
 )
+_ZERO_SAID = (
+    r"(?:(?:call(?:ing)?(?: (?:it|that))?|say(?:ing)?|give|answer|report|put|use|write|tell|count|"
+    r"make it|it is|that is|just|with|let it be|return|treat(?:ing)? (?:it|that) as) )*"
+)
 _OR_ZERO = re.compile(
-    r" (?:or )?(?:(?:say|give|answer|report|put|use|write) )?(?:or )?(#\d+) (?:if|when|where) .+$"
+    rf" (?:(?:or|and|else|otherwise) )*{_ZERO_SAID}(?:or )?(?P<a>#\d+) "
+    r"(?:if|when|where|should|unless|in case|for (?:no|none)) .+$|"
+    rf" (?:if|when|where|should) (?:(?!#).)+? {_ZERO_SAID}(?P<b>#\d+)$|"
+    rf" (?:or else|else|otherwise|or) {_ZERO_SAID}(?P<c>#\d+)$|"
+    r" (?:none|nothing|no \w+|not)(?: (?:is|are))?(?: (?:needed|required|missing|lacking|at all|"
+    r"short|"
+    r"necessary|left|there|over|under|above|below))*(?: (?:is|means|counts as|as|being|equals|"
+    r"gives|"
+    r"to be|reads))? (?P<d>#\d+)$|"
+    r" (?:counting|treating|taking|with) (?:(?!#).)+? as (?P<e>#\d+)$|"
+    r" (?:never|not) (?:below|under|less than) (?P<f>#\d+)$"
 )
 _SIGNED = re.compile(
     r" (?:(?:use|give|say|put|with|write) )?(?:an? |it )?(?:minus|negative|plus)(?: sign)? "
@@ -117,6 +172,7 @@ class AskedWords:
         is_unsigned: Whether the sign is to be left out.
         has_floor: Whether what is below zero counts as zero.
         is_signed: Whether a difference is asked for with its sign.
+        is_more: Whether what is asked for comes on top of what is felt: 'how many more newtons'.
         subject: What its pronouns stand for; None for the usual quantity of a dimension.
         base: Name of a scene that the question supposes to be ``subject``; ''.
     """
@@ -128,6 +184,7 @@ class AskedWords:
     is_unsigned: bool = False
     has_floor: bool = False
     is_signed: bool = False
+    is_more: bool = False
     subject: Term | None = None
     base: str = ""
 
@@ -149,7 +206,10 @@ class AskedWords:
         value = f"({self.subject.expression})"
         if term.expression == self.base:
             return replace(self.subject, words=term.words, is_weight=term.is_weight)
-        expression = re.sub(rf"\b{self.base}\b", value, term.expression)
+        held = term.expression
+        if self.base == "force_n":
+            held = re.sub(r"\bholds_g\b", "force_n / gram_n", held)
+        expression = re.sub(rf"\b{self.base}\b", value, held)
         return replace(term, expression=expression)
 
     def bound(self, words: str, *, is_above: bool) -> Term | None:
@@ -225,10 +285,11 @@ def asked_words(question: str) -> AskedWords:
     places = iter(range(1, len(asked.numbers) + 1))
     words = re.sub("#", lambda _: f"#{next(places, 0)}", asked.words)
     words = _LEADING.sub("", _GRAVITY.sub("", words))
-    zero = _OR_ZERO.search(words)
-    has_floor = zero is not None and asked.numbers[int(zero[1][1:]) - 1] == 0
-    if zero is not None and has_floor:
-        words = words[: zero.start()]
+    words = _OR_NOT.sub("", _HAD.sub("if ", words))
+    words, has_floor = _floored(words, asked.numbers)
+    if claimed := _CLAIMED.match(words):
+        words = f"is {words[claimed.end() :]}"
+        words = _CLAIM_TAG.sub("", words)
     for remark in (_GIVEN_MASS, _ANSWERED, _TAKING_G, _AT_ONCE, _REMARK):
         words = remark.sub("", words)
     per = ""
@@ -240,6 +301,7 @@ def asked_words(question: str) -> AskedWords:
     is_signed = _SIGNED.search(words) is not None
     words = _SIGNED.sub("", _UNSIGNED.sub("", words))
     is_ratio = _AS_RATIO.search(words) is not None and _AS_PERCENTAGE.search(words) is None
+    is_more = _EXTRA.search(words) is not None
     unit, words = _unit(_AS_RATIO.sub("", words) if is_ratio else words)
     return AskedWords(
         words=" ".join(words.split()),
@@ -249,7 +311,17 @@ def asked_words(question: str) -> AskedWords:
         is_unsigned=is_unsigned,
         has_floor=has_floor,
         is_signed=is_signed,
+        is_more=is_more,
     )
+
+
+def _floored(words: str, numbers: Sequence[float]) -> tuple[str, bool]:
+    """Words without what they say of zero, and whether what is below zero counts as zero."""
+    zero = _OR_ZERO.search(words)
+    place = next((place for place in zero.groups() if place), "") if zero else ""
+    if zero is None or numbers[int(place[1:]) - 1] != 0:
+        return words, False
+    return words[: zero.start()], True
 
 
 def _unit(words: str) -> tuple[str, str]:
@@ -257,6 +329,10 @@ def _unit(words: str) -> tuple[str, str]:
     if many := _MANY.search(words):
         return unit_of(many[1]), f"{words[: many.start()]}how much{words[many.end() :]}"
     found = list(_IN_UNIT.finditer(words))
+    if not found and (last := _LAST_UNIT.search(words)):
+        return unit_of(last[1]), words[: last.start()]
+    if not found and (first := _FIRST_UNIT.match(words)):
+        return unit_of(first[1]), f"how much {words[first.end() :]}"
     if not found:
         return "", words
     return unit_of(found[-1][1]), f"{words[: found[-1].start()]}{words[found[-1].end() :]}"

@@ -15,59 +15,162 @@ from dataclasses import replace
 
 from tacgrasp.lessons.dialogue.calculations.asked import AskedWords, usual
 from tacgrasp.lessons.dialogue.calculations.terms import Term, alike
+from tacgrasp.lessons.dialogue.quantities import UNITS
 
 _WAS = r"(?:(?:was|were|is|got|gets|had been|has been|be) )?"
-_WHO = r"(?:you|we|i|somebody|someone|they)"
+_WHO = (
+    r"(?:(?:you|we|i|somebody|someone|they|the (?:gripper|fingers|robot|hand|jaws|operator|user|"
+    r"arm|machine|controller))(?: were to)?)"
+)
+_PUSHED = r"(?:push|press|squeez|gripp?|pinch|clamp|held|holding|tighten)(?:ed|e|es|s|ing)?"
 _UP = (
-    rf"{_WAS}(?:grew|grows?|rose|rises?|increased?|increases|went up|goes up|climbed|gained|raised)"
+    rf"{_WAS}(?:grew|grows?|grown|rose|rises?|risen|increased?|increases|(?:go|goes|went|gone|come|"
+    r"comes|came|move|moved|crept|creep|turned|stepped|bumped|ramped|pushed|cranked|dialled) up|"
+    r"climbed|climbs?|gained|gains?|raised|jumps?|jumped)"
 )
 _DOWN = (
-    rf"{_WAS}(?:dropped|drops?|fell|falls?|decreased?|decreases|went down|goes down|shrank|"
-    rf"shrinks?|lost|"
+    rf"{_WAS}(?:dropped|drops?|fell|falls?|fallen|decreased?|decreases|(?:go|goes|went|gone|come|"
+    r"comes|came|turned|stepped|dialled|backed|eased|ramped) (?:down|off)|shrank|"
+    rf"shrinks?|lost|sank|sinks?|slackened|"
     r"declined|lowered|reduced|cut)"
 )
-_RAISED = r"(?:rais(?:e|ed)|increased?|lift(?:ed)?)"
-_LOWERED = r"(?:lower(?:ed)?|reduced?|decreased?|cut)"
-_LARGE = r"(?:large|big|high|deep|much|great|strong|heavy|hard)"
+_RAISED = (
+    r"(?:rais(?:e|ed|ing)|increas(?:e|ed|ing)|lift(?:ed|ing)?|(?:turn|crank|dial|step|ramp|bump|"
+    r"push|"
+    r"put)(?:ed|ped|ing|ping|led)? up|boost(?:ed|ing)?|up|upped|upping)"
+)
+_LOWERED = (
+    r"(?:lower(?:ed|ing)?|reduc(?:e|ed|ing)|decreas(?:e|ed|ing)|cut(?:ting)?(?: down)?|"
+    r"(?:turn|dial|step|ramp|take|bring|back|ease)(?:ed|d|ped|ing|ping|led)? (?:down|off)|"
+    r"drop(?:ped|ping)?|trim(?:med|ming)?|slacken(?:ed|ing)?|loosen(?:ed|ing)?)"
+)
+_LARGE = r"(?:large|big|high|deep|much|great|strong|heavy|hard|tight|firm|far)"
+_TURN = (
+    r"(?:turn|crank|dial|step|ramp|bump|push|put|bring|take|nudge|bring|ease|back|wind|scale|"
+    r"drive)(?:ed|ped|ing|ping|led|d|s)?|brought|took|wound"
+)
 _TIMES: Mapping[str, str] = {
-    "0.5": r"halved?|cut in half|cut by half|divided by two|half as",
-    "2": r"doubled?|doubles|multiplied by two|grew to (?:double|twice)(?: the size)?|twice as",
-    "3": r"tripled?|triples|multiplied by three|(?:three times|thrice) as",
+    "0.5": r"halve[ds]?|halving|cut in half|cut by half|divided by two|half as|dropped to half",
+    "2": r"double[ds]?|doubling|multiplied by two|grew to (?:double|twice)(?: the size)?|twice as",
+    "3": r"triple[ds]?|tripling|trebled?|trebling|multiplied by three|(?:three times|thrice) as",
+    "4": r"quadruple[ds]?|quadrupling|(?:four times) as",
 }
+_SHARES: Mapping[str, float] = {
+    "half": 50, "a half": 50, "one half": 50, "a third": 33.3333, "one third": 33.3333,
+    "a quarter": 25, "one quarter": 25, "a fifth": 20, "one fifth": 20, "a tenth": 10,
+    "one tenth": 10, "two thirds": 66.6667, "three quarters": 75, "half of it": 50,
+    "half its value": 50, "half of what it is": 50,
+}  # fmt: skip
+"""Shares of a quantity itself [%]."""
+
+_TIMES_MORE: Mapping[str, str] = {
+    "0.5": r"half", "2": r"twice|double|two times", "3": r"thrice|triple|three times",
+    "4": r"four times|quadruple",
+}  # fmt: skip
+_WITH = r"(?:(?:with|at|using|by|given|on|for|having|applying) )?"
+_GRIP = r"(?:force|grip|squeeze|pressure|clamp|clamping|indentation|depth)"
+_MORE_OF = re.compile(
+    rf"{_WITH}(?:(?:an?|another|an? (?:extra|additional|further)|yet another|an) )?(?:extra )?"
+    rf"(?P<b>#\d+ \w+)(?: of)?(?: (?:(?P<up>more|extra|additional|further|on top|added|higher|"
+    rf"harder|"
+    rf"stronger|firmer|tighter)|(?P<down>less|fewer|lower|softer|lighter|weaker|looser|taken off|"
+    rf"off)))+"
+    rf"(?: (?:of )?(?:(?:the|my|our) )?(?P<a>{_GRIP}))?"
+)
+_ANOTHER = re.compile(
+    rf"{_WITH}(?:another|(?:an? )?(?:extra|additional|further)) (?P<b>#\d+ \w+)(?: (?:of )?"
+    rf"(?:(?:the|my|our) )?(?P<a>{_GRIP}))?"
+)
+_AT_TIMES = re.compile(
+    rf"{_WITH}(?P<n>half|twice|double|two times|thrice|triple|three times|four times|quadruple) "
+    rf"(?:as (?:much|hard|firm|strong)|(?:the|our|my|this|that) (?:(?:present|current|same) )?"
+    rf"(?P<a>{_GRIP}))(?: .{{0,12}}now)?"
+)
 _CHANGES = tuple(
     (sign, re.compile(pattern))
     for sign, pattern in (
-        ("+", rf"(?P<a>.+?) {_UP} by (?:another )?(?P<b>.+)"),
-        ("-", rf"(?P<a>.+?) {_DOWN} by (?P<b>.+)"),
-        ("=", rf"(?P<a>.+?) (?:{_UP}|{_DOWN}|{_WAS}(?:set|changed)) to (?P<b>.+)"),
-        ("=", r"(?P<a>.+?) (?:was|were|is)(?: only| just)? (?P<b>#\d+ \w+|twice .+|half .+)"),
-        ("+", rf"{_WHO} {_RAISED} (?P<a>.+?) by (?P<b>.+)"),
-        ("-", rf"{_WHO} {_LOWERED} (?P<a>.+?) by (?P<b>.+)"),
-        ("=", rf"{_WHO} (?:set|{_RAISED}|{_LOWERED}) (?P<a>.+?) to (?P<b>.+)"),
         (
             "+",
-            r"(?P<a>.+?) (?:was|were|is) (?P<b>#.+?) (?:more|higher|greater|larger|deeper|heavier)",
+            rf"(?P<a>.+?) {_UP}(?: by(?: another)?)? (?P<b>#.+|(?<=by )(?:a|one|half).+|"
+            rf"(?<=by )half)",
+        ),
+        ("-", rf"(?P<a>.+?) {_DOWN}(?: by)? (?P<b>#.+|(?<=by )(?:a|one|half).+|(?<=by )half)"),
+        ("=", rf"(?P<a>.+?) (?:{_UP}|{_DOWN}|{_WAS}(?:set|changed)) to (?P<b>.+)"),
+        ("=", r"(?P<a>.+?) (?:was|were|is)(?: only| just)? (?P<b>#\d+ \w+|twice .+|half .+)"),
+        ("+", rf"{_WHO} (?:{_TURN}) (?P<a>.+?) up(?: by)? (?P<b>.+)"),
+        ("-", rf"{_WHO} (?:{_TURN}) (?P<a>.+?) (?:down|back|off)(?: by)? (?P<b>.+)"),
+        ("+", rf"{_WHO} {_RAISED} (?P<a>.+?) by (?P<b>.+)"),
+        ("-", rf"{_WHO} {_LOWERED} (?P<a>.+?) by (?P<b>.+)"),
+        (
+            "=",
+            rf"{_WHO} (?:set|brought|bring|take|took|{_RAISED}|{_LOWERED}) (?P<a>.+?) to (?P<b>.+)",
+        ),
+        (
+            "+",
+            r"(?P<a>.+?) (?:was|were|is|gets?|got|becomes?|grows?|grew) (?P<b>#.+?) (?:more|"
+            r"higher|greater|larger|deeper|heavier)",
         ),
         ("-", r"(?P<a>.+?) (?:was|were|is) (?P<b>#.+?) (?:less|lower|smaller|shallower|lighter)"),
-        ("+", rf"{_WHO} (?:add(?:ed)?|put|gave) (?P<b>.+?) (?:to|onto|on) (?P<a>.+)"),
+        ("+", r"(?P<a>.+?) (?:gained|gains|put on|puts on) (?P<b>#.+)"),
+        ("-", r"(?P<a>.+?) (?:lost|loses|shed|sheds|gave up) (?P<b>#.+)"),
+        (
+            "+",
+            rf"{_WHO} (?:add(?:ed)?|put|gave) (?:another |an extra )?(?P<b>.+?) (?:to|onto|on) "
+            r"(?P<a>.+)",
+        ),
         ("+", r"(?:adding|putting) (?:another )?(?P<b>#.+?)(?: more)? to (?P<a>.+)"),
-        ("-", rf"{_WHO} (?:took|take|removed?) (?P<b>.+?) (?:off|from) (?P<a>.+)"),
+        (
+            "-",
+            rf"{_WHO} (?:took|take|taking|removed?|shave|knock|subtract) (?P<b>.+?) "
+            r"(?:off(?: of)?|away from|from) (?P<a>.+)",
+        ),
+        (
+            "-",
+            rf"{_WHO} (?:{_LOWERED}|take|took|knock|shave|pull|let|lift)(?:ed|d)? "
+            r"(?P<b>#\d+ \w+|a \w+|half) (?:off|from) (?P<a>.+)",
+        ),
     )
+)
+_EXACTLY = re.compile(
+    r"\b(?:exactly|precisely|just|merely|only|about|around|simply|a mere|say) (?=#)"
 )
 _TO_TIMES = re.compile(
     rf"(?P<a>.+?) (?:{_UP}|{_DOWN}) to (?P<n>#\d+) times "
     rf"(?:the )?(?:\w+ )?(?:size|value|amount|depth|self)"
 )
 _PRESSED = re.compile(
-    rf"(?:{_WHO}|it|the (?:fingers|gripper|robot|hand)) "
-    rf"(?:push|press|squeez|gripp?|pinch|clamp|put on|add)(?:ed|e|es|s)?"
+    rf"(?:{_WHO}|it|the (?:gel|pad|skin|dent|object|contact|indentation)) (?:were |was |is |got )?"
+    rf"(?:{_PUSHED}|put on|add|go|went)(?: in)?"
     r"(?: with)? (?P<b>#.+?) (?:(?P<more>harder|more|firmer|stronger|deeper|extra)|"
     r"(?P<less>softer|less|lighter|gentler|shallower))"
 )
+_OFF = re.compile(
+    rf"(?:{_WHO} )?(?:take|took|taking|knock|knocked|shave|shaved|trim|trimmed|let|pull|pulled|"
+    r"lift|lifted|drop|dropped) (?P<b>#\d+ \w+)(?: of (?:force|grip|squeeze))? (?:off|away)(?: it)?"
+)
+_GRIPPED_TIMES = re.compile(
+    rf"(?:{_WHO}|it|the \w+) (?:were |was |is )?{_PUSHED}(?: (?:it|on it|in|with))* "
+    rf"(?P<n>half|twice|double|two times|thrice|triple|three times|four times|quadruple)"
+    rf"(?: (?:as )?(?:hard|firm|firmly|strong|strongly|tight|tightly|much|deep|deeply|far)|"
+    rf" (?:the|that|this|our) {_GRIP})?"
+)
 _EASED = re.compile(
     rf"(?:{_WHO} )?(?:(?:backing|easing) off|releasing|letting go of|let go of|released?|gave up|"
-    rf"back(?:ed)? off|ease(?:d)?(?: off)?|took off|took away|drop(?:ped)?)"
-    r"(?: by)? (?P<b>.+)"
+    rf"(?:back|ease|let|slacken|ramp|wind|come|take|knock|shave)(?:e?d)?(?: it)? (?:off|up|back|"
+    rf"down)|"
+    rf"ease(?:d)?|took off|took away|drop(?:ped)?|loosen(?:ed)?|slacken(?:ed)?|relax(?:ed)?|"
+    rf"reduced?|lower(?:ed)?|cut|lost|lose)(?: it| off| the (?:force|grip|squeeze))?"
+    r"(?: by)? (?P<b>#.+?|(?:a|one) (?:half|third|quarter|fifth|tenth)|half|.+ of the .+)"
+    r"(?: off| of (?:force|grip|squeeze))?"
+)
+_ADDED = re.compile(
+    rf"(?:{_WHO} )?(?:(?:add(?:ed|ing)?|put|putting|apply|applied|applying|pile|piled|tack|tacked|"
+    r"throw|threw|stack|stacked|gain|gained|give it|gave it|increase(?:d)?|raise(?:d)?|"
+    r"tighten(?:ed)?|"
+    r"squeeze(?:d)?|press(?:ed)?|(?:go|goes|went|come|step|turn)(?:ed)? up|climb(?:ed)?|rise)"
+    r"(?: (?:it|on|in|up|by|with|another|an?|extra|a further|the (?:force|grip|squeeze)))*) "
+    r"(?P<b>#\d+ \w+)(?: of (?:force|grip|squeeze))?(?: (?:more|extra|on top|on|to it|to (?:that|"
+    r"this)|harder))*"
 )
 _ON_TOP = re.compile(
     r"(?:another )?(?P<b>#\d+ \w+)(?: more)? (?:came|comes|were put|was put|were added|"
@@ -79,8 +182,24 @@ _GONE = re.compile(
 )
 _CHANGE_OF = re.compile(
     r"(?:an? )?(?P<b>#\d+ \w+) (?:(?P<up>increase|rise|gain|growth)|decrease|drop|fall|reduction|"
-    r"cut) (?:of|in) (?P<a>.+)"
+    r"cut)(?: (?:of|in)(?: the)? (?P<a>.+))?"
 )
+_SANK = re.compile(
+    r"(?:it|we|the \w+) (?:sank|sinks?|went|goes|go|moved?|dug|digs|dented|is pressed|was pressed|"
+    r"were pressed)(?: (?:in|down|deeper|further))*(?: (?:by|another|an? (?:extra|further)))* "
+    r"(?P<b>#\d+ \w+)(?: (?:further|deeper|more|in|down))*"
+)
+_WEIGHED = re.compile(
+    r"(?:it|the \w+) (?:weigh(?:s|ed)?|were|was|had|has|got) (?P<b>#\d+ \w+) "
+    r"(?:(?P<up>more|heavier|extra)|(?:less|lighter))"
+)
+_FROM_HERE = re.compile(
+    r" from (?:here|where (?:it|we) (?:is|are)(?: now)?|(?:the|its) (?:present|current) "
+    r"(?:value|level|reading|state))$"
+)
+_LET = re.compile(rf"^{_WHO} (?:let|have|had|made|make) (?=(?:it|the \w+) (?!#))")
+_PRODUCT = re.compile(rf"{_WHO} (?P<verb>multiply|divide)(?:ied|d)? (?P<a>.+?) by (?P<n>#\d+)")
+_ON_END = re.compile(r" (?:more|extra|further|on top|again)$")
 _MOVED = re.compile(
     r"(?:it|the (?:object|contact|thing))(?: (?:was|were|is|had|has|been))* "
     r"(?:shifted|moved|slid|pushed|moves|slides|shifts)(?: by)? (?P<b>#\d+ \w+) "
@@ -104,21 +223,48 @@ def changed(asked: AskedWords, change: str) -> Term | None:
         asked: The question, whose numbers and pronouns the clause has.
         change: The clause in plain words.
     """
-    for reader in (_gripped, _moved, _multiplied, _altered):
+    change = _FROM_HERE.sub("", _LET.sub("", _EXACTLY.sub("", change)))
+    for reader in (_topped, _gripped, _moved, _multiplied, _altered):
         if term := reader(asked, change):
             return term
     return None
 
 
-def _gripped(asked: AskedWords, change: str) -> Term | None:
-    """Force or depth after a firmer or softer grip, and a mass with something put on."""
-    for pattern in (_PRESSED, _EASED, _ON_TOP):
+def _topped(asked: AskedWords, change: str) -> Term | None:
+    """A force or depth with so much on top of it or less, or a multiple of one."""
+    if found := _AT_TIMES.fullmatch(change) or _GRIPPED_TIMES.fullmatch(change):
+        named = found.groupdict().get("a")
+        is_deep = re.search(r" (?:deep|deeply|far)$", change) is not None
+        term = asked.term(named) if named else usual("length" if is_deep else "force")
+        factor = next(n for n, said in _TIMES_MORE.items() if re.fullmatch(said, found["n"]))
+        return term and replace(term, expression=f"{factor} * {term.factor}", words="")
+    for pattern in (_MORE_OF, _ANOTHER):
         if (found := pattern.fullmatch(change)) is None:
             continue
         by = asked.term(found["b"])
+        dimension = "force" if by and by.unit == "%" else by.dimension if by else ""
+        if by is None or dimension not in ("force", "length", "mass"):
+            return None
+        term = asked.term(found["a"]) if found["a"] else usual(dimension)
+        is_less = found.groupdict().get("down") is not None
+        if term is None or (term.dimension != dimension and by.unit != "%"):
+            return None
+        return _by(term, "-" if is_less else "+", by)
+    return None
+
+
+def _gripped(asked: AskedWords, change: str) -> Term | None:
+    """Force or depth after a firmer or softer grip, and a mass with something put on."""
+    for pattern in (_PRESSED, _OFF, _EASED, _ON_TOP, _ADDED):
+        if (found := pattern.fullmatch(change)) is None:
+            continue
+        by = _share_of_itself(found["b"]) or asked.term(found["b"])
+        if by is not None and by.unit == "%":
+            is_less = pattern in (_OFF, _EASED) or bool(found.groupdict().get("less"))
+            return _by(usual("force"), "-" if is_less else "+", by)
         if by is None or by.dimension not in ("force", "length", "mass"):
             return None
-        is_less = pattern is _EASED or (pattern is _PRESSED and found["less"] is not None)
+        is_less = pattern in (_OFF, _EASED) or bool(found.groupdict().get("less"))
         felt = usual("force" if pattern is _PRESSED and by.dimension == "mass" else by.dimension)
         return _by(felt, "-" if is_less else "+", by)
     found = _LOADED.fullmatch(change)
@@ -145,12 +291,25 @@ def _multiplied(asked: AskedWords, change: str) -> Term | None:
         if whole is not None and count is not None:
             expression = f"{whole.divisor} {sign} {count.expression}"
             return replace(whole, expression=expression, words="" if sign == "/" else whole.words)
+    if found := _PRODUCT.fullmatch(change):
+        whole, count = _subject(asked, found["a"], "half"), asked.term(found["n"])
+        if whole is not None and count is not None:
+            sign = "*" if found["verb"] == "multiply" else "/"
+            return replace(whole, expression=f"{whole.divisor} {sign} {count.expression}")
     for factor, said in _TIMES.items():
         found = re.fullmatch(
             rf"(?:{_WHO} (?:ordered|had|made) )?(?P<a>.+?) {_WAS}(?:{said})(?: {_LARGE})?", change
         ) or re.fullmatch(rf"{_WHO} (?:{said}) (?P<a>.+)", change)
-        term = asked.term(found["a"]) if found else None
-        if found and term:
+        if found is None:
+            continue
+        term = asked.term(found["a"])
+        if term is None and found["a"] in ("it", "that", "this"):
+            is_deep = UNITS[asked.unit].dimension == "length" if asked.unit in UNITS else False
+            is_deep = (
+                is_deep or re.search(r"\b(?:deep|depth|indentation)\b", asked.words) is not None
+            )
+            term = usual("length" if is_deep else "force")
+        if term:
             return replace(term, expression=f"{factor} * {term.factor}", words=found["a"])
     return None
 
@@ -161,14 +320,48 @@ def _altered(asked: AskedWords, change: str) -> Term | None:
         term, part = asked.term(found["a"]), asked.term(f"{found['share']} of {found['a']}")
         return _by(term, "-", part) if term and part else None
     if found := _CHANGE_OF.fullmatch(change):
-        term, by = asked.term(found["a"]), asked.term(found["b"])
-        return _by(term, "+" if found["up"] else "-", by) if term and by else None
+        by = asked.term(found["b"])
+        if by is None or (not found["a"] and by.dimension not in ("force", "length", "fraction")):
+            return None
+        felt = usual("force" if by.unit == "%" else by.dimension)
+        term = asked.term(found["a"]) if found["a"] else felt
+        return _by(term, "+" if found["up"] else "-", by) if term else None
+    for pattern, dimension in ((_SANK, "length"), (_WEIGHED, "mass")):
+        if (found := pattern.fullmatch(change)) is None:
+            continue
+        by = asked.term(found["b"])
+        if by is not None and by.dimension == dimension:
+            is_more = pattern is _SANK or found["up"] is not None
+            return _by(usual(dimension), "+" if is_more else "-", by)
     for sign, pattern in _CHANGES:
         found = pattern.fullmatch(change)
-        term, by = (asked.term(found[name]) for name in "ab") if found else (None, None)
-        if term and by and (made := _by(term, sign, by)):
+        term = _subject(asked, found["a"], found["b"]) if found else None
+        if found is None or term is None or not term.has_quantity:
+            continue
+        by = _share_of_itself(found["b"]) or asked.term(_ON_END.sub("", found["b"]))
+        if sign == "=" and found["b"] in _SHARES:
+            factor = f"{_SHARES[found['b']]:g}"
+            return replace(term, expression=f"{factor} / 100 * {term.factor}")
+        if by and (made := _by(term, sign, by)):
             return made
     return None
+
+
+def _subject(asked: AskedWords, words: str, by: str) -> Term | None:
+    """What is changed: a term, or for a pronoun the felt quantity beside the change."""
+    if term := asked.term(words):
+        return term
+    change = _share_of_itself(by) or asked.term(_ON_END.sub("", by))
+    if change is not None and change.unit == "%":
+        change = usual("force")
+    return asked.term(words, beside=change) if change is not None else None
+
+
+def _share_of_itself(words: str) -> Term | None:
+    """A change by a third or a half, as percent; None of another one."""
+    if (share := _SHARES.get(words)) is None:
+        return None
+    return Term(expression=f"{share:g}", dimension="fraction", words=words, unit="%")
 
 
 def _by(term: Term, sign: str, by: Term) -> Term | None:

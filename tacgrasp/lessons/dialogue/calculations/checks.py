@@ -12,6 +12,7 @@ from __future__ import annotations
 import re
 
 from tacgrasp.lessons.dialogue.calculations.asked import AskedWords, usual
+from tacgrasp.lessons.dialogue.calculations.phrases import EXCEEDS, MOVES, REACHES
 from tacgrasp.lessons.dialogue.calculations.quantity_names import UNIT, is_band
 from tacgrasp.lessons.dialogue.calculations.terms import Term, alike
 from tacgrasp.lessons.dialogue.meaning import Calculated
@@ -19,18 +20,20 @@ from tacgrasp.lessons.dialogue.meaning import Calculated
 _VERB = r"(?:is|are|was|were|does|do|did|would|will|has|have|can|could)"
 _ADVERB = (
     r"(?:still|already|now|currently|really|also|then|even|actually|presently|both|yet|at present|"
-    r"right now|at the moment|any|clearly|surely|perhaps)"
+    r"right now|at the moment|any|clearly|surely|perhaps|have|has|had|been)"
 )
 _BE = (
-    r"(?:be|lie|lying|sit|land|stay|come out|end up|remain|get|go|fall|"
-    r"(?:put|land|take|bring|push|get|carry|leave|keep) (?:us|me|you|it))"
+    r"(?:(?:be|is|are|am|was|were|lie|lies|lying|sit|sits|sitting|land|landing|stay|stays|staying|"
+    r"stand|stands|come out|end up|ending up|come|coming|remain|remains|remaining|get|getting|go|"
+    r"going|fall|falls|falling|drop|dropping|keep|keeping|"
+    rf"got|{MOVES})(?: (?:back|at|up|down))?|at)"
 )
 _COMPARED = tuple(
     (sign, re.compile(rf"(?P<a>.+?)(?: {_ADVERB})*(?: {_BE})?(?: {_ADVERB})* (?:{said}) (?P<b>.+)"))
     for sign, said in (
         (
             ">=",
-            r"reach(?:es|ed)?|comes? up to|at least(?: as \w+ as)?|no less than|not less than|"
+            rf"{REACHES}|at least(?: as \w+ as)?|no less than|not less than|"
             r"not below|not "
             r"under|no smaller than",
         ),
@@ -38,14 +41,12 @@ _COMPARED = tuple(
         (
             ">",
             r"(?:more|greater|larger|higher|bigger|heavier|deeper|stronger|further|"
-            r"farther)(?: in size)? than|above|over|exceed(?:s|ing)?|beyond|past|"
-            r"surpass(?:es|ing)?|violates?|breaks?|tops?|in excess of|"
-            r"outweighs?",
+            rf"farther)(?: in size)? than|above|over|beyond|past|in excess of|{EXCEEDS}",
         ),
         (
             "<",
             r"(?:less|smaller|lower|lighter|shallower|weaker|nearer|fewer) than|below|under|"
-            r"short of|falls? short of|beneath|undercuts?|fail(?:ed|s)? to reach",
+            r"short of|falls? short of|beneath|undercuts?|(?:fail(?:ed|s)? to|not|does not) reach",
         ),
     )
 )
@@ -85,8 +86,10 @@ _BETWEEN = re.compile(
     rf"(?P<a>.+?)(?: {_ADVERB})*(?: {_BE})? (?:somewhere )?between (?P<b>.+) and (?P<c>.+)"
 )
 _IN_BAND = re.compile(
-    rf"(?P<a>.+?)(?: {_ADVERB})*(?: {_BE})? (?:(?P<out>outside(?: of)?|out of)|within|inside|in) "
-    r"(?:the |our |this )?(?:\w+ ){0,2}(?:band|range|window|goal|target)"
+    rf"(?P<a>.+?)(?: {_ADVERB})*(?: {_BE})?(?: {_ADVERB})* (?:(?P<out>outside(?: of)?|out of|"
+    rf"leav\w+)|"
+    r"within|inside|into|in) (?:the |our |this |my |your )?(?:\w+ ){0,2}(?:band|range|window|goal|"
+    r"target|zone)"
 )
 _ANY = re.compile(
     r"(?:either one|at least one|one of (?:them|these|the two)|"
@@ -116,6 +119,21 @@ _RESERVE = re.compile(
 )
 
 
+_AFFORDED = re.compile(
+    r"(?:i|we|you|it)(?: (?:still|can|safely))* (?:afford|add|take|use|get|have|bear|stand|put on) "
+    r"(?:another |an extra )?(?P<b>#\d+ \w+)(?: (?:more|extra|further|of (?:force|grip)|on top))* "
+    r"(?:before|until) (?:(?:i|we|it) (?:hit|reach|hits|reaches) |hitting |reaching )?(?:the )?"
+    r"(?:force )?(?:limit|cap|ceiling)(?: (?:trips|bites|is (?:hit|reached|met)|kicks in))?"
+)
+_ROOM = re.compile(
+    r"(?:there|we|i|you|it)(?: (?:still|be|is|have|has|got|any|enough|left))* "
+    r"(?:room|space|headroom|slack|margin|leeway)(?: left)? for (?:another |an extra )?"
+    r"(?P<b>#\d+ \w+)(?: (?:more|extra|further|of (?:force|grip)|on top))*"
+    r"(?: (?:before|below|under|to|until|up to|beneath) (?:we (?:hit|reach) )?(?:the )?(?:limit|"
+    r"cap|ceiling))?"
+)
+
+
 def calculated_check(asked: AskedWords) -> Calculated | None:
     """What a question asks whether it is so; None where it asks for no such thing."""
     words, is_any = asked.words, False
@@ -123,7 +141,7 @@ def calculated_check(asked: AskedWords) -> Calculated | None:
         is_any, words = True, words[one_of.end() :].replace(" and ", " or ")
     elif _ASKS_ANY.search(words):
         is_any, words = True, _ASKS_ANY.sub("", words)
-    elif begin := re.match(rf"{_VERB} (?=.)", words):
+    elif begin := re.match(rf"(?:{_VERB}|am|do|may|might|should) (?=.)", words):
         words = words[begin.end() :]
     else:
         return None
@@ -145,6 +163,9 @@ def condition_of(asked: AskedWords, words: str) -> str | None:
         pair = alike(left, rest) if rest else None
         sign = ">" if found["more"] else "<"
         return f"{pair[0].expression} {sign} {pair[1].factor}" if pair else None
+    found = _ROOM.fullmatch(words) or _AFFORDED.fullmatch(words)
+    if found and (pair := asked.pair("the limit", found["b"])):
+        return f"{pair[0].expression} - force_n >= {pair[1].factor}"
     if found := _SIDE_OF.fullmatch(words):
         name = "y_mm" if found["side"] in ("above", "below") else "x_mm"
         place = asked.subject or Term(expression=name, dimension="length", words="it")

@@ -14,6 +14,7 @@ import re
 from tacgrasp.lessons.dialogue.calculations.asked import AskedWords, usual
 from tacgrasp.lessons.dialogue.calculations.checks import shared_noun
 from tacgrasp.lessons.dialogue.calculations.quantity_names import is_band
+from tacgrasp.lessons.dialogue.calculations.scales import half_of_scale
 from tacgrasp.lessons.dialogue.calculations.terms import alike
 from tacgrasp.lessons.dialogue.meaning import Calculated
 
@@ -89,14 +90,17 @@ _HALVES = re.compile(
 _ASKS_WHERE = re.compile(r"(?:is|are|does|do|would|which|what|where|in which|on which|contact)\b")
 _PLACED = re.compile(r"\b(?:half|side|part|where|contact|middle|center|pad|thing|gel)\b")
 _NOT_PLACED = re.compile(
-    r"\b(?:if|how|than|straight|band|range|window|force|limit|goal|target|depth|area|mass|edge|offset|matter|whether|#\d+|should|move|go)\b"
+    r"\b(?:if|how|than|straight|band|range|window|force|limit|goal|target|depth|area|mass|edge|"
+    r"offset|matter|whether|#\d+|should|move|go)\b"
 )
 _ARTICLE = re.compile(r"^(?:the|our|to|to the) ")
 
 
 def calculated_choice(asked: AskedWords) -> Calculated | None:
     """What a question lets choose by terms; None where it lets choose nothing so."""
-    for reader in (_which, _which_end, _nearer, _over_or_under, _step, _back, _half, _covered):
+    for reader in (
+        _which, _which_end, _nearer, _scale_half, _over_or_under, _step, _back, _half, _covered,
+    ):  # fmt: skip
         if found := reader(asked):
             return found
     return None
@@ -202,6 +206,12 @@ def _covered(asked: AskedWords) -> Calculated | None:
     if one not in _TOUCHED or two not in _FREE:
         return None
     return Calculated(truth=f"'{one}' if area_percent > 50 else '{two}'", unit=None)
+
+
+def _scale_half(asked: AskedWords) -> Calculated | None:
+    """The half of a stated scale that a quantity is in."""
+    told = half_of_scale(asked)
+    return _chosen(*told, asked) if told else None
 
 
 def _half(asked: AskedWords) -> Calculated | None:

@@ -29,15 +29,23 @@ _MISSING = re.compile(
     r")?(?:reach(?:ing)? )?(?P<b>.+)"
 )
 _FURTHER = re.compile(
-    r"how (?:much|far)(?: (?:more|further|deeper|harder|force|of [a-z]+))* "
-    r"(?:(?:i|we|you|it) )?(?:would|must|does|do|can|could|may|should|will|has|have|need) .+? to "
-    r"(?:reach|get to|arrive at|hit|be at|come to|get up to) (?P<b>.+)"
+    r"how (?:much|far)(?: (?:more|further|deeper|harder|extra|additional|force|grip|squeeze|"
+    r"of [a-z]+))* "
+    r"(?:(?:i|we|you|it) )?(?:would|must|does|do|can|could|may|should|will|has|have|need) "
+    r"(?:(?!than)(?!without)[a-z]+ )+?(?:to (?:reach|get to|arrive at|hit|be at|come to|get up to|"
+    r"come up to|touch)|(?:before|until|till) (?:it|i|we|you|(?:the|my|our) (?:\w+ )?\w+) "
+    r"(?:reach(?:es)?|hits?|(?:is|are|was|were) at|gets? to|(?:comes?|gets?) up to|measures?|"
+    r"touch(?:es)?|"
+    r"bottoms? out at)) (?P<b>.+)"
 )
 _UNTIL = re.compile(
-    r"how much(?: (?:more|further|deeper|is there|do we have|have we))*(?: (?:can|could|may|might) "
-    r"(?:we|you|i|it) \w+)? (?:until|till|to|before|up to) "
-    r"(?:(?:we|you|it|i|the \w+) (?:reach|hit|are at|get to|reaches|reached|hits|measures?d?|was) "
-    r")?(?P<b>.+)"
+    r"how much(?: (?:more|further|deeper|extra|grip|force|squeeze|is there|do we have|have we|"
+    r"left|to go))*(?: (?:can|could|may|might) (?:we|you|i|it) \w+)? (?:until|till|to|before|"
+    r"up to) "
+    r"(?:(?:we|you|it|i|the \w+) (?:reach|hit|are(?: at)?|is(?: at)?|get to|reaches|reached|hits|"
+    r"measures?d?|was|touch|am at|gets? (?:up |down )?to|comes? (?:up )?to|touches|come to|"
+    r"bump into|run into) )?(?P<b>.+?)"
+    r"(?: (?:deep |down )?(?:in|into) (?:the|this|that) \w+)?"
 )
 _SLACK = re.compile(
     r"(?:what|how much) (?:slack|room|margin|leeway|headroom|distance|"
@@ -55,14 +63,30 @@ _APARTS = tuple(
         rf"(?:(?P<below>{BELOW})|(?P<above>{ABOVE})|(?P<apart>{_APART})) (?P<b>.+)",
         rf"(?:by )?how (?:much|far) (?:(?P<below>{BELOW})|(?P<above>{ABOVE})|(?P<apart>{_APART})) "
         rf"(?P<b>.+) {IS} (?P<a>.+?)(?: (?:lie|be|sit|stand|lying))?",
+        rf"(?:by )?how (?:much|far) (?:(?P<below>{BELOW})|(?P<above>{ABOVE}))(?P<a>) "
+        rf"(?P<b>(?!(?:.* )?{IS}\b).+)",
+        rf"how (?:close|near) {IS} (?P<a>.+?)(?: be| get)? (?P<apart>to) (?P<b>.+)",
+        rf"how (?:close|near)(?P<apart> to)? (?P<b>.+) {IS} (?P<a>.+?)(?: be| get| come)?",
         r"how (?:much|far)(?: (?:lies?|is there|are there|is|remains?|room is there))? "
         r"(?P<apart>between) (?P<a>.+) and (?P<b>.+)",
         r"what (?:is|would) (?:the )?(?P<apart>distance|gap|difference)(?P<a>) (?:to|from) "
         r"(?P<b>.+?)(?: be)?",
         r"(?:what is|how (?:large|big|wide|great) is) (?:the )?(?P<apart>difference|gap|distance|"
         r"spread)(?: there)? between (?P<a>.+) and (?P<b>.+)",
+        rf"(?:the )?amount by which (?P<a>.+?) (?:{IS} )?(?:(?P<below>{BELOW})|(?P<above>{ABOVE}|"
+        r"overshoot|exceed|surpass)) (?P<b>.+)",
+        r"(?:(?:what|how (?:large|big|much|great)) is )?(?:the )?(?P<above>excess|surplus|"
+        r"overshoot|"
+        r"overrun|overage)(?P<a>) (?:over|above|beyond|past|of|on|from) (?P<b>.+)",
+        r"(?:(?:what|how (?:large|big|much|great)) is )?(?:the )?(?P<below>shortfall|deficit|lack|"
+        r"shortage)(?P<a>) (?:to|below|from|against|under|of|on|relative to) (?P<b>.+)",
+        r"(?:(?:what|how (?:large|big|much|great|wide|far)) is )?(?:the )?(?P<apart>gap|distance|"
+        r"difference|step|jump|climb|way|margin|room) from (?P<a>.+?) (?:up |down )?to (?P<b>.+)",
+        r"(?:(?:what|how (?:large|big|much|great|wide|far)) is )?(?:the )?(?P<apart>gap|distance|"
+        r"difference|spread) between (?P<a>.+) and (?P<b>.+)",
     )
 )
+_FROM_TO = re.compile(r"\bfrom .+ to\b")
 _TAKEN = tuple(
     re.compile(pattern)
     for pattern in (
@@ -77,6 +101,10 @@ _TAKEN = tuple(
         rf"(?:subtract|deduct|take away|"
         rf"take off) (?P<b>.+?){_GET}",
     )
+)
+_BEYOND = re.compile(
+    r"(?P<a>.+?) (?:left(?: over)?|to spare|in reserve) (?:beyond|above|after|over|"
+    r"besides) (?P<b>.+)"
 )
 _ADDED = tuple(
     re.compile(pattern)
@@ -97,10 +125,33 @@ _POINT = re.compile(
 )
 
 
+_HEADROOM = re.compile(
+    r"(?:what|how (?:much|large|big|many))(?: (?:is|of an?|the))* (?:headroom|room|margin|leeway|"
+    r"reserve|slack|buffer)"
+    r"(?: (?:would|will|do|is|are|we|i|there|be|still|then|remain|remains|left|have|get|over|"
+    r"(?:to|below|before|under|until|beneath) (?:it|the (?:force )?limit)))*"
+)
+
+
+_LOWERED = re.compile(
+    r"how (?:much|far) (?:must|should|would|do|does|could|will|has|have|need|needs)"
+    r"(?: (?:i|we|you|it|the \w+))?(?: (?:have|need|needs|be|to|back|ease|come|go|taken|take|let|"
+    r"shed|lose|lost|off|down|up|loosen|loosened|slacken|removed|cut|drop|dropped|reduced|"
+    r"force|grip))* (?:to|until|before) (?:(?:we|it|i|you) )?(?:be |is |are )?"
+    r"(?:(?:come|comes|get|gets|go|drop|drops|fall|falls|return) )?(?:back )?down (?:to|"
+    r"at) (?P<b>.+)"
+)
+
+
 def missing(asked: AskedWords) -> Term | None:
     """What is missing until a term is reached."""
+    if asked.subject is not None and _HEADROOM.fullmatch(asked.words):
+        pair = asked.pair("we", "the limit")
+        return _difference(pair[1], pair[0]) if pair else None
+    if (found := _LOWERED.fullmatch(asked.words)) and (pair := asked.pair(None, found["b"])):
+        return _difference(*pair)
     for pattern in (_MISSING, _FURTHER, _SLACK, _UNTIL):
-        found = pattern.fullmatch(asked.words)
+        found = pattern.fullmatch(asked.in_its_unit(asked.words))
         named = found.groupdict().get("a") if found else None
         if found and (pair := asked.pair(named, found["b"])):
             return _difference(pair[1], pair[0])
@@ -113,7 +164,7 @@ def apart(asked: AskedWords) -> Term | None:
         if (found := pattern.fullmatch(asked.words)) is None:
             continue
         sides = found.groupdict()
-        is_above = bool(sides["above"]) if sides.get("above") or sides.get("below") else None
+        is_above = bool(sides.get("above")) if sides.get("above") or sides.get("below") else None
         if (pair := asked.pair(found["a"], found["b"], is_above=is_above)) is None:
             continue
         a, b = pair
@@ -122,7 +173,8 @@ def apart(asked: AskedWords) -> Term | None:
         if sides.get("above"):
             return _difference(a, b)
         if asked.is_signed:
-            return _difference(a, b)
+            is_back = _FROM_TO.search(asked.words) is not None
+            return _difference(b, a) if is_back else _difference(a, b)
         apart = f"abs({a.expression} - {b.factor})"
         return Term(expression=apart, dimension=a.dimension, words="")
     return None
@@ -130,7 +182,7 @@ def apart(asked: AskedWords) -> Term | None:
 
 def taken(asked: AskedWords) -> Term | None:
     """One term taken from another one, or added to it."""
-    for patterns, sign in ((_TAKEN, "-"), (_ADDED, "+")):
+    for patterns, sign in (((*_TAKEN, _BEYOND), "-"), (_ADDED, "+")):
         for pattern in patterns:
             found = pattern.fullmatch(asked.words)
             if found and (pair := asked.pair(found["a"], found["b"])):

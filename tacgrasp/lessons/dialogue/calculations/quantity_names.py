@@ -12,17 +12,25 @@ from tacgrasp.lessons.dialogue.written_units import SPELLED
 
 _THING = (
     r"(?:object|thing|berry|strawberry|fruit|item|part|piece|egg|tomato|peg|load|body|specimen|"
-    r"sample|product|article|workpiece|good|goods)"
+    r"sample|product|article|workpiece|good|goods|payload|carton|box|jar|bottle|component|weight|"
+    r"block|parcel|package|lump|bracket|casting|cup|glass|vial|apple|gadget|unit|brick|tool|mass)"
 )
+THING = _THING
+"""What a mass may be of."""
+
 _OF_THING = rf"(?: of (?:the |this |that |our )?{_THING})"
 _BAND_NAME = (
-    r"(?:(?:target|wanted|goal|force|desired|requested|required|agreed|intended|set|permitted|"
-    r"allowed|given|specified|aimed at|asked for) )*(?:band|range|window|corridor|interval|goal|"
-    r"target)"
+    r"(?:(?:target|wanted|goal|force|grip|desired|requested|required|agreed|intended|set|permitted|"
+    r"allowed|given|specified|aimed at|asked for|prescribed|sanctioned|approved|allotted|working|"
+    r"safe|acceptable|admissible|ordered) )*"
+    r"(?:band|range|window|corridor|interval|goal|target|bracket|zone)"
 )
-_LOW = r"(?:lower|lowest|low|bottom|minimum|least|min)"
-_HIGH = r"(?:upper|highest|high|top|maximum|most|max)"
-_END = r"(?:end|edge|bound|boundary|border|limit|side|rim|value|force|threshold|point|mark|part)"
+_LOW = r"(?:lower|lowest|low|bottom|minimum|least|min|floor|foot|base)"
+_HIGH = r"(?:upper|highest|high|top|maximum|most|max|ceiling|roof)"
+_END = (
+    r"(?:end|edge|bound|boundary|border|limit|side|rim|value|force|threshold|point|mark|part|line)"
+)
+_OWN = r"(?:the |our |my |your |this |that )?"
 _MIDDLE = r"(?:middle|midpoint|mid point|center|mid|mean|average)"
 _ON = (
     r"(?: (?:on|against|at|in|onto|upon|of) (?:the )?(?:pad|gel|sensor|object|contact|finger|grip|"
@@ -33,25 +41,42 @@ _ON = (
 def _ends(which: str) -> str:
     """Names of one end of the band."""
     return (
-        rf"{which}(?: {_END})? (?:of|in) (?:the |our )?{_BAND_NAME}|"
-        rf"{_BAND_NAME}(?:'s)? {which}(?: {_END})?|{which} {_BAND_NAME} {_END}|"
+        rf"{which}(?: {_END})? (?:of|in|to) {_OWN}{_BAND_NAME}(?: of force)?|"
+        rf"{_BAND_NAME}(?:'s| is)? {which}(?: {_END})?|{which} {_BAND_NAME} {_END}|"
         rf"{which} (?:wanted|requested|desired|required) force|{which} force (?:wanted|requested)"
     )
 
 
+_ALLOWED = r"(?:permitted|allowed|permissible|allowable|admissible|tolerated)"
+_MAXIMUM = r"(?:maximum|max|most|highest|largest)"
+_FORCE = r"(?: (?:force|grip|squeeze|pressure))"
+_LIMIT = (
+    rf"(?:(?:force|grip|squeeze|hard|upper|safety|absolute|maximum|max|never exceed|{_ALLOWED}) )*"
+    rf"(?:limit|ceiling|cap)(?: (?:force|value|line|mark|figure))?|"
+    rf"never exceed(?: (?:limit|value|force|mark|figure|line|level|threshold|number))?|"
+    rf"{_ALLOWED} (?:{_MAXIMUM}{_FORCE}?|force)|{_MAXIMUM} {_ALLOWED}{_FORCE}?|"
+    rf"{_MAXIMUM}{_FORCE} (?:that is )?{_ALLOWED}|limiting force|force (?:at|of) the limit|"
+    rf"what is {_ALLOWED}(?: at (?:the )?most)?|(?:the )?most (?:that is |we are )?{_ALLOWED}|"
+    rf"(?:absolute|hard) {_MAXIMUM}{_FORCE}?|force {_MAXIMUM}"
+)
+_NEVER = (
+    r"(?:(?:that|which) )?(?:(?:we|you|i|it|one|nobody) )?(?:must|may|should|can|shall|is|are) "
+    r"(?:never|not)(?: (?:to|ever))?(?: (?:be|get))?(?: (?:exceed|exceeded|cross|crossed|pass|"
+    r"passed|break|broken|violate|violated|overstep|overstepped|go over|go past|surpass|surpassed))"
+)
+_SURELY = (
+    r"(?:sure|sure hold|sure holding|surely held|surely holdable|guaranteed|certain|safe|secure|"
+    r"safely held|safe working|sure carrying)"
+)
+_HELD = r"(?:load|mass|weight|payload|holding capacity|capacity|holding mass|hold)"
 _NAMED: Mapping[str, tuple[str, str]] = {
-    rf"(?:normal |contact |grip |gripping |grasp |pressing |squeezing |pinch |clamping )*(?:force|"
-    rf"squeeze|push|pressure|grip|pinch|press){_ON}|(?:grip|force) strength|"
+    rf"(?:normal |contact |grip |gripping |grasp |pressing |squeezing |pinch |clamping |clamp |"
+    rf"holding |squeeze )*(?:force|squeeze|push|pressure|grip|pinch|press|clamp|clench|grasp)"
+    rf"{_ON}|(?:grip|force|squeeze) (?:strength|level|reading)|clamping|squeezing|"
     r"(?:force |what )?(?:that )?(?:you|we) (?:feel|press|apply|measure)(?: with)?|force felt": (
         "force_n", "force",
     ),
-    r"(?:force |permitted |allowed |permissible |hard |upper |safety |maximum |"
-    r"never exceed )*(?:limit|ceiling|cap)(?: force)?|"
-    r"(?:permitted|allowed|permissible) (?:maximum|max)(?: force)?|"
-    r"maximum (?:permitted|allowed|permissible) force|maximum force (?:permitted|allowed)|"
-    r"never exceed (?:force|value|line)": (
-        "limit_n", "force",
-    ),
+    rf"(?:{_LIMIT})(?: {_NEVER})?": ("limit_n", "force"),
     _ends(_LOW): ("band_low_n", "force"),
     _ends(_HIGH): ("band_high_n", "force"),
     rf"{_MIDDLE} of (?:the |our )?{_BAND_NAME}|{_BAND_NAME}(?:'s)? {_MIDDLE}": (
@@ -60,7 +85,8 @@ _NAMED: Mapping[str, tuple[str, str]] = {
     rf"(?:width|span|breadth) of (?:the |our )?{_BAND_NAME}|{_BAND_NAME}(?:'s)? (?:width|span)": (
         "band_high_n - band_low_n", "force",
     ),
-    rf"(?:maximum |peak |contact |indentation |penetration |imprint |greatest |deepest )*(?:depth|"
+    rf"(?:maximum |peak |contact |dent |gel |press |indentation |penetration |imprint |greatest |"
+    rf"deepest )*(?:depth|"
     rf"indentation|dent|penetration|imprint)(?: of (?:the )?(?:contact|dent|press|"
     rf"indentation|imprint|{_THING}))?": ("depth_mm", "length"),
     r"(?:contact |touched |covered |pressed |touching )*(?:area|patch|footprint|"
@@ -78,9 +104,20 @@ _NAMED: Mapping[str, tuple[str, str]] = {
     rf"(?:radial )?(?:distance|offset)(?: of (?:the )?(?:contact|{_THING}))? (?:from|to) "
     r"(?:the )?(?:pad )?(?:middle|center)(?: of (?:the )?pad)?": ("hypot(x_mm, y_mm)", "length"),
     rf"(?:stated |told )?mass{_OF_THING}?|{_THING}(?:'s)?(?: own)? mass": ("mass_g", "mass"),
-    r"(?:payload|carrying capacity|holding capacity|heaviest load|load it holds)": (
+    r"(?:payload|carrying capacity|holding capacity|heaviest load|load it holds)|"
+    rf"(?:maximum |max |heaviest |largest |most )?{_SURELY} {_HELD}|"
+    rf"(?:maximum |max |heaviest |largest )?{_HELD} (?:that )?(?:(?:it|we|i|you|the grip|"
+    rf"this grip) )?"
+    r"(?:is |can |could )?(?:be )?(?:surely|safely|certainly|definitely|for sure|"
+    r"for certain) (?:held|holds?|carried|"
+    r"carries|carry|bears?|supports?)|what (?:it|the grip|this grip) (?:surely|safely) holds": (
         "holds_g", "mass",
     ),
+    r"(?:headroom|margin|room|reserve|leeway|slack)(?: left)? (?:to|below|under|before|until|"
+    r"up to) "
+    r"(?:the )?(?:force )?limit|headroom": ("limit_n - force_n", "force"),
+    r"(?:mean|average) (?:contact )?pressure(?: (?:on|over) (?:the )?(?:contact|patch|pad|contact "
+    r"area|contact patch))?": ("force_n / area_mm2", "pressure"),
     r"(?:whole |full |entire )?(?:pad|sensing area)|(?:full|complete|total) coverage": (
         "100", "fraction",
     ),
@@ -96,7 +133,22 @@ WEIGHT = re.compile(rf"(?:own )?weight{_OF_THING}?|{_THING}(?:'s)?(?: own)? weig
 
 _BAND = re.compile(rf"(?:(?:the|our|this|whole|entire) )*{_BAND_NAME}")
 
-_UNIT_WORDS: Mapping[str, str] = {**SPELLED, r"percentage points?|points?": "%"}
+_UNIT_WORDS: Mapping[str, str] = {
+    r"(?:n|newtons?) per (?:mm2|mm²|(?:square|sq) (?:mm|millimet(?:re|er)s?))": "N/mm²",
+    **SPELLED,
+    r"percentage points?|points?|per cent": "%",
+    r"cm²|(?:square|sq) (?:cm|centimet(?:re|er)s?)": "cm²",
+    r"decimillimetres|dmm": "dmm",
+    r"centimillimetres|cmm": "cmm",
+    r"decinewtons|dn": "dN",
+    r"pa|pascals?": "Pa",
+    r"hpa|hectopascals?": "hPa",
+    r"kpa|kilopascals?": "kPa",
+    r"mpa|megapascals?": "MPa",
+    r"mbar|millibars?": "mbar",
+    r"bar": "bar",
+    r"psi": "psi",
+}
 UNIT = "|".join(_UNIT_WORDS)
 """Words of the units that a calculation may be in."""
 

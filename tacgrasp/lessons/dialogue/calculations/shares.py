@@ -19,7 +19,8 @@ from tacgrasp.lessons.dialogue.quantities import UNITS
 
 _TAIL = (
     r"(?: (?:amount|come|correspond|add up|be equal|equal) to| makes?(?: up)?| takes? up|"
-    r" represents?| at| uses?(?: up)?| be| equals?| account for| cover)?"
+    r" represents?|(?: be)? at| uses?(?: up)?| be| equals?| account for| cover|"
+    r"(?: be)? (?:reached|used(?: up)?|attained|got(?: up)? to|come to|gone through|covered))?"
 )
 _USED = r"(?:taken up|used|used up|filled|consumed|reached|covered|exhausted)"
 _FREE = (
@@ -53,6 +54,15 @@ _RATIOS = tuple(
         r"(?:what is )?(?P<a>.+) divided by (?P<b>.+)",
         r"(?:what is |the )*ratio (?:of|between) (?P<a>.+) (?:to|and) (?P<b>.+)",
         r"how many times (?P<b>the .+?) (?:is|are) (?P<a>.+)",
+        r"(?:by (?:what|which) factor|how many times|how many fold) (?:(?:would|must|should|does|"
+        r"do|"
+        r"could|can|will|has|have|may|might) )?(?P<b>.+?) (?:(?:have|need|has|needs) to |to )?"
+        r"(?:be )?(?:grow|rise|increase|go up|climb|change|swell|shrink|fall|drop|multiplied|"
+        r"scaled|"
+        r"raised|stepped up|turned up)(?: by)? (?:to (?:arrive(?: exactly)? at|"
+        r"reach|hit|get (?:up |right )?to|be(?: exactly)? at|meet|equal|touch|come to|"
+        r"land (?:exactly )?on)|"
+        r"before (?:it )?(?:reach(?:es|ing)?|hit(?:s|ting)?|(?:gets|getting) to)) (?P<a>.+)",
         r"by (?:what|which) (?:factor|number) (?:would|must|should|do|could|can) (?:i|we|you) "
         r"(?:have to )?(?:multiply|scale|raise) (?P<b>.+) to "
         r"(?:land (?:exactly )?on|get(?: to)?|reach|be "

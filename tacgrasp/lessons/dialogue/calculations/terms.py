@@ -15,7 +15,13 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
-from tacgrasp.lessons.dialogue.calculations.quantity_names import NAMED, UNIT, WEIGHT, unit_of
+from tacgrasp.lessons.dialogue.calculations.quantity_names import (
+    NAMED,
+    THING,
+    UNIT,
+    WEIGHT,
+    unit_of,
+)
 from tacgrasp.lessons.dialogue.conditions import number_text
 from tacgrasp.lessons.dialogue.quantities import GRAVITY_N_PER_G, UNITS
 
@@ -31,8 +37,8 @@ class Term:
     """A noun phrase's meaning.
 
     Attributes:
-        expression: Its value (``tacgrasp.lessons.dialogue.expression``), in mm, N, percent, mm² or
-            g.
+        expression: Its value (``tacgrasp.lessons.dialogue.expression``), in mm, N, percent, mm²,
+            g or N/mm².
         dimension: What it measures: that of a unit, ``PLAIN`` or ``UNSAID``.
         words: The phrase in plain words.
         is_sum: Whether the expression needs brackets beside another operator.
@@ -86,12 +92,30 @@ _TRAILING = re.compile(
     r"instead|today|itself|as felt|as measured|in size|value|figure|reading|"
     r"on (?:the )?(?:pad|gel)|(?:that )?(?:you|we|i)(?: are| am)? "
     r"(?:feel|have|read|see|press|apply|measur|us|squeez|exert)(?:e|"
-    r"ing)?(?: (?:with|now|there|here|on it))*))+$"
+    r"ing)?(?: (?:with|now|there|here|on it))*|(?:that )?(?:the (?:gel|pad|skin)|it) "
+    r"(?:can|could|may|will) (?:take|go|do|bear|give|squish|stand|offer|be pressed(?: in)?)))+$"
 )
 _NUMBER = re.compile(
-    rf"(?:(?:depth|force|area|mass|load|grip|weight) of )?(#\d+)(?: "
-    rf"({UNIT})(?: (?:of )?(?:force|deep|depth))?| force)?"
+    rf"(?:(?:depth|force|area|mass|load|grip|weight|squeeze|clamp) of )?(#\d+)(?: "
+    rf"({UNIT})(?: (?:of )?(?:force|grip|squeeze|deep|depth|indentation|travel|{THING})|"
+    rf"(?: \w+)? (?:range|scale|travel|stroke|span))?| force)?"
 )
+_MASS_OF = re.compile(
+    r"(#\d+ (?:g|grams?|kg|kilos?|kilograms?)) "
+    r"(?!(?:more|less|extra|over|under|above|below|short|per|to|at|is|are|and|of|for|with|in|on|by|"
+    r"from|as|or|but|we|i|you|it|the|a|an|before|without|then|if|when|would|will|can|could|does|do|"
+    r"that|this|away|off|now|here|total|each|be|has|have|than|through|up|down|what|how|"
+    r"\w+(?:er|ed|ly|ing))$)[a-z]+"
+)
+"""A mass with whatever has it: 'a 20 g nut'."""
+
+_SCALE = re.compile(
+    rf"(?:scale|range|span|interval) (?:(?:of|from|running from|going from) )?(?P<low>#\d+)"
+    rf"(?: (?:{UNIT}))? (?:to |through |up to )?(?P<high>.+)|"
+    rf"(?P<first>#\d+)(?: (?:{UNIT}))? (?:to )?(?P<last>#\d+ (?:{UNIT})) (?:scale|range|span)"
+)
+"""A scale that begins at nothing, which is as long as its upper end."""
+
 
 _OPERATIONS: Sequence[tuple[str, re.Pattern[str]]] = tuple(
     (name, re.compile(pattern))
@@ -115,6 +139,8 @@ _OPERATIONS: Sequence[tuple[str, re.Pattern[str]]] = tuple(
 )
 _PERCENT_OF = re.compile(r"(#\d+) percent (?:of )?(.+)")
 _TIMES = re.compile(r"(#\d+) (?:times|fold) (.+)")
+_PARTS_OF = re.compile(r"(#\d+) (thirds|quarters|fifths|eighths|tenths) of (.+)")
+_PARTS = {"thirds": 3, "quarters": 4, "fifths": 5, "eighths": 8, "tenths": 10}
 _MULTIPLE = re.compile(rf"({'|'.join(_MULTIPLES)}) (?:of |as \w+ as )?(.+)")
 _MADE = {"doubled": "2", "halved": "0.5", "tripled": "3"}
 _MADE_SO = re.compile(r"(?:(doubled|halved|tripled) (.+)|(.+) (doubled|halved|tripled))")
@@ -141,7 +167,7 @@ class TermReader:
 def _read(words: str, numbers: tuple[float, ...]) -> Term | None:
     if not words or words.count(" ") >= MOST_WORDS:
         return None
-    for reader in (_number, _quantity, _operation, _multiple):
+    for reader in (_number, _quantity, _scale, _operation, _multiple):
         if found := reader(words, numbers):
             return found
     bare = _ARTICLE.sub("", words, count=1) if _ARTICLE.match(words) else words
@@ -149,7 +175,8 @@ def _read(words: str, numbers: tuple[float, ...]) -> Term | None:
 
 
 def _number(words: str, numbers: tuple[float, ...]) -> Term | None:
-    if (found := _NUMBER.fullmatch(words)) is None:
+    mass = _MASS_OF.fullmatch(words)
+    if (found := _NUMBER.fullmatch(mass[1] if mass else words)) is None:
         return None
     number = numbers[int(found[1][1:]) - 1]
     if found[2] is None:
@@ -171,6 +198,13 @@ def _quantity(words: str, _: tuple[float, ...]) -> Term | None:
             is_sum = re.search(r" [-+] ", re.sub(r"\(.*?\)", "", expression)) is not None
             return Term(expression=expression, dimension=dimension, words=words, is_sum=is_sum)
     return None
+
+
+def _scale(words: str, numbers: tuple[float, ...]) -> Term | None:
+    found = _SCALE.fullmatch(words)
+    if found is None or numbers[int((found["low"] or found["first"])[1:]) - 1] != 0:
+        return None
+    return _read(found["high"] or found["last"], numbers)
 
 
 def _operation(words: str, numbers: tuple[float, ...]) -> Term | None:
@@ -269,6 +303,9 @@ def _multiple(words: str, numbers: tuple[float, ...]) -> Term | None:
     factor, rest = "", ""
     if found := _PERCENT_OF.fullmatch(words):
         factor, rest = f"{number_text(numbers[int(found[1][1:]) - 1] / 100)}", found[2]
+    elif found := _PARTS_OF.fullmatch(words):
+        factor = number_text(numbers[int(found[1][1:]) - 1] / _PARTS[found[2]])
+        rest = found[3]
     elif found := _TIMES.fullmatch(words):
         factor, rest = number_text(numbers[int(found[1][1:]) - 1]), found[2]
     elif found := _MULTIPLE.fullmatch(words):

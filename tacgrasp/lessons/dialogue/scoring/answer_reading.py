@@ -19,6 +19,18 @@ from tacgrasp.lessons.dialogue.quantities import UNITS
 from tacgrasp.lessons.dialogue.scene import HOLD, LIFT
 
 _UNIT_NAMES: Mapping[str, str] = {
+    "N/mm²": r"N/mm(?:²|\^?2)",
+    "N/cm²": r"N/cm(?:²|\^?2)",
+    "Pa": r"Pa|pascals?",
+    "hPa": r"hPa|hectopascals?",
+    "kPa": r"kPa|kilopascals?",
+    "MPa": r"MPa|megapascals?",
+    "mbar": r"mbar|millibars?",
+    "bar": r"bars?",
+    "psi": r"psi",
+    "dmm": r"dmm|tenths? of an? (?:mm|millimet(?:re|er))",
+    "cmm": r"cmm|hundredths? of an? (?:mm|millimet(?:re|er))",
+    "dN": r"dN|decinewtons?|tenths? of an? (?:N|newton)",
     "mm": r"mm|millimet(?:re|er)s?",
     "µm": r"[µμ]m|um|microns?|micromet(?:re|er)s?",
     "cm": r"cm|centimet(?:re|er)s?",

@@ -1,0 +1,105 @@
+"""Questions for the mean pressure of the contact, and for a circle or square of its area.
+
+    What is the mean pressure in kPa?                       force_n / area_mm2
+    As a circle of equal area, what diameter has it?        2 * sqrt(area_mm2 / 3.14159)
+
+Not here: areas and forces alone (``tacgrasp.lessons.dialogue.families``).
+"""
+
+from __future__ import annotations
+
+import re
+
+from tacgrasp.lessons.dialogue.calculations.asked import AskedWords
+from tacgrasp.lessons.dialogue.calculations.phrases import is_made_of
+from tacgrasp.lessons.dialogue.calculations.terms import Term
+from tacgrasp.lessons.dialogue.quantities import UNITS
+
+_ROUND = re.compile(r"\b(?:circle|circular|disc|disk|round|dot|coin)\b")
+_SQUARE = re.compile(r"\bsquare\b")
+_DIAMETER = re.compile(r"\b(?:diameter|across|wide|width|breadth)\b")
+_RADIUS = re.compile(r"\bradius\b")
+_AROUND = re.compile(r"\b(?:circumference|perimeter)\b")
+_SIDE = re.compile(r"\b(?:sides?|edge|edges|wide|width|across)\b")
+_AREA = re.compile(
+    r"\b(?:area|patch|footprint|contact|contact patch|print|imprint|spot|region|size|touched|"
+    r"surface)\b"
+)
+_OF_FORM = (
+    r"(?:if|suppose|supposing|imagine|assume|assuming|say|were|was|the|a|an|my|our|that|this|it|"
+    r"contact|patch|footprint|area|print|imprint|spot|region|touched|part|surface|size|pad|gel|"
+    r"redrawn|drawn|redraw|draw|made|turned|reshaped|rounded|replaced|modelled|treated|taken|"
+    r"thought|squashed|squeezed|moulded|into|as|to|by|with|of|on|in|for|being|one|perfect|"
+    r"perfectly|"
+    r"true|exact|exactly|ideal|simple|plain|single|neat|full|same|equal|equivalent|identical|"
+    r"circle|circular|disc|disk|round|dot|coin|square|shape|shaped|form|diameter|across|wide|"
+    r"width|breadth|radius|circumference|perimeter|side|sides|edge|length|long|what|which|how|"
+    r"big|large|would|will|is|are|be|does|do|has|have|had|you|we|i|get|give|gives|its|"
+    r"covering|covers|covered|having|whose|equals|matches|matching|and|then|there|come|comes|"
+    r"out|amount|us|me|tell|much|treat|treating|turn|each|every|imagined|equivalently|regard|"
+    r"regarded|seen|just|measure|measures|large)"
+)
+_PRESSURE = re.compile(
+    r"\b(?:pressure|stress|force (?:per|divided by|over|spread|shared|distributed)|"
+    r"(?:divide|dividing|spread|spreading|distribute|distributing)\b.*\bforce)\b"
+)
+_IS_MEAN = re.compile(
+    r"\b(?:mean|average|averaged|divid\w+|spread\w*|over|per|distribut\w+|shared|uniform\w*|"
+    r"even\w*)\b"
+)
+_OF_PRESSURE = (
+    r"(?:what|which|how|much|is|are|be|would|will|does|do|did|the|a|an|of|in|on|onto|over|across|"
+    r"by|"
+    r"per|for|to|from|it|this|that|we|i|you|get|gives?|giving|given|come|comes|make|makes|work|"
+    r"works|out|if|when|with|and|then|there|here|under|at|against|contact|patch|area|"
+    r"footprint|pad|gel|region|touched|pressed|covered|part|unit|surface|grip|gripping|"
+    r"clamp|clamping|squeeze|squeezing|normal|force|load|pressure|stress|mean|average|averaged|"
+    r"felt|present|current|currently|now|measured|divide|divided|dividing|spread|spreading|"
+    r"distribute|distributed|distributing|shared|uniform|uniformly|evenly|even|all|whole|entire|"
+    r"resulting|exerted|applied|express|expressed|assuming|my|our|its|object|equally|"
+    r"press|presses|pressing|push|pushes|with|figure|value|put|take|result|results|tell|me|"
+    r"fingertip|finger|as)"
+)
+
+
+def pressure(asked: AskedWords) -> Term | None:
+    """The force over the area of contact."""
+    unit = UNITS.get(asked.unit)
+    is_asked = unit is not None and unit.dimension == "pressure"
+    words = asked.words
+    if asked.numbers or (asked.unit and not is_asked):
+        return None
+    words = re.sub(r" ?on average$", "", words)
+    if not is_asked and not (_PRESSURE.search(words) and _IS_MEAN.search(words)):
+        return None
+    if not (is_asked or re.search(r"\b(?:area|patch|footprint|pressure|stress)\b", words)):
+        return None
+    if not is_made_of(words, _OF_PRESSURE):
+        return None
+    force = asked.term("force")
+    return force and Term(
+        expression=f"{force.factor} / area_mm2", dimension="pressure", words="", unit=""
+    )
+
+
+def circle(asked: AskedWords) -> Term | None:
+    """Diameter, radius or circumference of a circle of the contact's area, or a square's side."""
+    words = asked.words
+    if asked.numbers or not _AREA.search(words) or not is_made_of(words, _OF_FORM):
+        return None
+    area = asked.term("area")
+    of = area.factor.replace("area_percent", "area_mm2") if area else "area_mm2"
+    if _ROUND.search(words):
+        if _RADIUS.search(words):
+            expression = f"sqrt({of} / 3.14159)"
+        elif _AROUND.search(words):
+            expression = f"2 * sqrt(3.14159 * {of})"
+        elif _DIAMETER.search(words):
+            expression = f"2 * sqrt({of} / 3.14159)"
+        else:
+            return None
+    elif _SQUARE.search(words) and _SIDE.search(words):
+        expression = f"sqrt({of})"
+    else:
+        return None
+    return Term(expression=expression, dimension="length", words="")

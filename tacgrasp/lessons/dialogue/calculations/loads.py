@@ -1,0 +1,293 @@
+"""Questions for the load that a force surely holds, and for the force that surely holds a load.
+
+    At a grip of 4 N, what load is surely held?     4 / gram_n
+    How many mN per gram do you budget?             gram_n
+    How much more force for a 200 g part?           gram_n * 200 - force_n
+    Which safety factor has a 200 g part?           holds_g / 200
+
+What is asked is known by its words in any order: each of them must be one that such a question
+has, besides a force or a mass.
+
+Not here: whether something slips (``tacgrasp.lessons.dialogue.rules.loads``).
+"""
+
+from __future__ import annotations
+
+import re
+
+from tacgrasp.lessons.dialogue.calculations.asked import AskedWords, usual
+from tacgrasp.lessons.dialogue.calculations.phrases import is_made_of
+from tacgrasp.lessons.dialogue.calculations.quantity_names import THING, UNIT, unit_of
+from tacgrasp.lessons.dialogue.calculations.terms import PLAIN, Term
+from tacgrasp.lessons.dialogue.meaning import Calculated
+from tacgrasp.lessons.dialogue.quantities import UNITS
+
+MOST_TERM_WORDS = 9
+"""Longest force or mass in such a question [words]."""
+
+_SURE = (
+    r"(?:sure|surely|certain|certainly|certainty|safe|safely|secure|securely|reliably|reliable|"
+    r"definitely|guarantee|guaranteed|guarantees|confident|confidently|dependably|trust|"
+    r"trusted|count|counted|bank|rely|promise|promised|vouch|doubt|fail|risk|slip|slipping|"
+    r"slips|dropping|drop)"
+)
+_HOLD = (
+    r"(?:hold|holds|held|holding|carry|carried|carries|carrying|lift|lifted|lifting|support|"
+    r"supports|supported|bear|bears|keep|keeps|kept|hang|hanging|pick|picked|hoist|hoisted|"
+    r"manage|handle|handled|take|grip|gripped|retain|retained|stay|stays|sustain|sustained|"
+    r"suspend|suspended|raise|raised|move|haul|hauled|secure|secured)"
+)
+_LOAD = (
+    rf"(?:load|loads|mass|masses|weight|weights|heavy|heaviest|capacity|payload|{THING}|grams|"
+    r"kilos|kilograms|much|many)"
+)
+_FORCE = (
+    r"(?:force|grip|squeeze|newtons|millinewtons|hard|tight|firmly|pressure|clamp|clamping|"
+    r"gripping|pinch|strong|strongly|tightly|press|pressing|stronger|harder|firmer|tighter)"
+)
+_NEEDED = (
+    r"(?:need|needs|needed|require|requires|required|necessary|must|have|has|should|take|takes|"
+    r"minimum|min|least|smallest|enough|call|calls|sufficient|suffices|ought|want|wants|demand|"
+    r"demands|do|would)"
+)
+_LEAST = r"(?:minimum|min|least|smallest|needed|required|necessary)"
+_FILL = (
+    r"(?:what|which|how|is|are|be|would|will|could|can|does|do|did|may|might|should|shall|the|a|"
+    r"an|of|in|on|onto|to|by|at|with|for|from|it|this|that|these|we|i|you|one|my|our|your|their|"
+    r"up|most|max|maximum|biggest|largest|greatest|limit|still|just|then|there|ever|object|"
+    r"without|before|any|no|not|so|and|out|off|being|only|under|such|amount|figure|value|"
+    r"number|gripper|fingers|finger|jaws|robot|hand|touch|state|present|current|currently|now|"
+    r"tell|me|give|get|got|gets|able|possible|rule|thumb|really|actually|exactly|reckon|"
+    r"think|say|expect|expected|allow|am|as|if|absolute|absolutely|hundred|percent|all|put|place|"
+    r"us|buy|buys|earn|earns|something|anything|stuff|steady|still|"
+    r"each|every|per|theory|principle|practice|here|together|using|based|think|go|come|comes)"
+)
+_EXPLAINED = re.compile(r" (?:i e|that is to say|meaning|defined as|in other words) .+$")
+_TOLD_MASS = re.compile(
+    r"(?:given|with|for|from|by|going by|based on|at|of|using|knowing) (?:the )?"
+    r"(?:(?:stated|told|known|recorded|given|declared|quoted|listed) )?(?:mass|weight)"
+    rf"(?: (?:of (?:the |this |that |our )?{THING}|on (?:record|file|the \w+)|in the \w+|"
+    rf"for (?:the |this |that |our )?{THING}|(?:that )?(?:i|we|you|it) (?:\w+ ){{0,2}}\w+|"
+    rf"(?:as )?(?:stated|told|given|known|recorded)))*"
+)
+_INTO = r"(?:(?:right|exactly|just|only) )?(?:at|with|by|using|under|for|given|from|of|up to|right up to|all the way (?:up )?to|to)"
+_GRIPPING = (
+    r"(?:(?:squeezing|gripping|pressing|clamping|pinching|holding|pushing|squeezed|clamped|gripped|"
+    r"applying|exerting|going|go|went|may|use|using|used|reach|reached|hit|run|could|can|would|"
+    r"will|does|do|if|were|was|we|i|you|is|it|the|"
+    r"squeeze|squeeze it|press|grip|apply|clamp|are) )*"
+)
+_BEFORE_FORCE = re.compile(
+    rf"(?:^|(?<= )){_GRIPPING}(?:{_INTO} )?(?:an? |the )?(?:steady |constant )?"
+    r"(?:(?:grip|squeeze|force|clamp|pinch|grip force) (?:of|at|is at|set to|set at|is|were|"
+    r"was) )?$"
+)
+_BEFORE_MASS = re.compile(
+    r"(?:^|(?<= ))(?:(?:for|to|with|of|under|given|on|if|before|so|that|it|is|weighs|weighing|i|we|"
+    r"can|could|until|hold|lift|carry|pick|up|safely|surely|the|an?|object|mass|weight|load|by) )*$"
+)
+_PER_GRAM = re.compile(
+    r"(?:(?:per|for (?:each|every|one|a)|(?:to|of) (?:each|every)|each|every) (?:single )?"
+    r"(?P<each>gram|kilogram|kilo|kg)|per g)(?: of (?:load|mass|weight|payload|object|it))?"
+    r"(?: (?:to be )?(?:lifted|held|carried|gripped|hoisted))?"
+)
+_PER_NEWTON = re.compile(
+    r"\b(?:per|for (?:each|every)|each|every) (?:single )?(?:newton|n)\b(?: of (?:grip|force|"
+    r"squeeze))?"
+)
+_SHORT = re.compile(r"\b(?:short|shy|lack|lacking|missing|shortfall)\b")
+_FACTOR = re.compile(
+    r"(?:factor of safety|safety factor|holding factor|safety ratio|margin of safety as a factor|"
+    r"how many times (?:over|as much as needed|its weight))"
+)
+
+
+def load(asked: AskedWords) -> Term | None:
+    """The load that a force surely holds: the felt one, or one that the question names."""
+    words = _EXPLAINED.sub("", asked.words)
+    if asked.unit in ("g", "kg", "g/N", "kg/N") and (each := _PER_NEWTON.search(f"{words} ")):
+        rest = f"{words[: each.start()]} {words[each.end() :]}"
+        if _is_load(f"how much {rest}"):
+            unit = f"{asked.unit.partition('/')[0]}/N"
+            return Term(expression="1 / gram_n", dimension=unit, words="")
+    if not _asks_load(asked, words):
+        return None
+    for force, rest in _with_term(asked, words, "force", _BEFORE_FORCE):
+        if _is_load(rest):
+            expression = f"{force.factor} / gram_n"
+            return Term(expression=expression, dimension="mass", words="")
+    if _is_load(words) and asked.subject is not None and "force_n" in asked.base:
+        held = asked.subject.factor
+        return Term(expression=f"{held} / gram_n", dimension="mass", words="")
+    return None
+
+
+def needed(asked: AskedWords) -> Term | None:
+    """The force that surely holds a load, or how much more than the felt one that is."""
+    words = _EXPLAINED.sub("", asked.words)
+    if per := _per_gram(asked, words):
+        return per
+    if "/" in asked.unit or (asked.unit and UNITS[asked.unit].dimension != "force"):
+        return None
+    if not asked.unit and not re.search(rf"\b{_FORCE}\b", words):
+        return None
+    if _ASKS_SO.match(words) or re.search(r"\benough\b", words):
+        return None
+    if not asked.unit and not re.search(rf"\b(?:what|which|how|{_LEAST})\b", words):
+        return None
+    for mass, rest in (*_with_term(asked, words, "mass", _BEFORE_MASS), *_told_mass(words)):
+        if mass.expression == "holds_g" or not _is_needed(rest):
+            continue
+        expression = f"gram_n * {mass.factor}"
+        if asked.is_more or _SHORT.search(words):
+            return Term(
+                expression=f"{expression} - force_n", dimension="force", words="", is_sum=True
+            )
+        return Term(expression=expression, dimension="force", words="")
+    return None
+
+
+def safety_factor(asked: AskedWords) -> Term | None:
+    """How many times the load the grip surely holds."""
+    words = _EXPLAINED.sub("", asked.words)
+    if not _FACTOR.search(words):
+        return None
+    words = _FACTOR.sub("", words)
+    held = asked.term("sure load")
+    told = [*_with_term(asked, words, "mass", _BEFORE_MASS), *_told_mass(words)]
+    told.append((usual("mass"), words))
+    for mass, rest in told:
+        if held and mass.expression != "holds_g" and _is_filled(rest):
+            return Term(expression=f"{held.factor} / {mass.divisor}", dimension=PLAIN, words="")
+    return None
+
+
+def sure_to_hold(asked: AskedWords) -> Calculated | None:
+    """Whether a supposed force surely holds a named load; None where that is not asked."""
+    if asked.subject is None or not _ASKS_SO.match(asked.words):
+        return None
+    if asked.subject.dimension == "mass":
+        return _holds_it(asked, asked.subject)
+    if asked.base != "force_n":
+        return None
+    for mass, rest in (
+        *_with_term(asked, asked.words, "mass", _BEFORE_MASS),
+        *_told_mass(asked.words),
+    ):
+        used = rf"(?:{_FILL}|{_SURE}|{_HOLD}|{_LOAD}|{_FORCE}|has|have)"
+        if re.search(r"\b(?:slip|slips|slipping|drop|dropping|fail|risk|not|too)\b", rest):
+            return None
+        if re.search(rf"\b(?:{_SURE}|{_HOLD}|enough)\b", rest) and is_made_of(rest, used):
+            truth = f"{asked.subject.factor} >= gram_n * {mass.factor}"
+            return Calculated(truth=truth, unit=None)
+    return None
+
+
+def _holds_it(asked: AskedWords, mass: Term) -> Calculated | None:
+    """Whether the felt force surely holds a supposed mass."""
+    used = rf"(?:{_FILL}|{_SURE}|{_HOLD}|{_LOAD}|{_FORCE}|{THING})"
+    if re.search(r"\b(?:slip|slips|slipping|drop|dropping|fail|risk|not|too)\b", asked.words):
+        return None
+    if not re.search(rf"\b(?:{_SURE}|hold|carry|enough)\b", asked.words):
+        return None
+    if not is_made_of(asked.words, used):
+        return None
+    return Calculated(truth=f"force_n >= gram_n * {mass.factor}", unit=None)
+
+
+_ASKS_SO = re.compile(r"(?:is|are|am|would|will|could|can|does|do|has|have|should)\b")
+
+
+def _per_gram(asked: AskedWords, words: str) -> Term | None:
+    """The force that surely holds a gram, in the quotient of units that is asked for."""
+    one, _, each = asked.unit.partition("/")
+    rest = words
+    if not each:
+        if (found := _PER_GRAM.search(words)) is None:
+            return None
+        led = words[: found.start()]
+        named = re.search(rf"\b({UNIT}) $", led) if not asked.unit else None
+        one = asked.unit or (unit_of(named[1]) if named else "N")
+        each = "kg" if (found["each"] or "").startswith("k") else "g"
+        rest = f"{led[: named.start()] if named else led} {words[found.end() :]}"
+    if one not in UNITS or UNITS[one].dimension != "force" or each not in ("g", "kg"):
+        return None
+    used = rf"(?:{_FILL}|{_FORCE}|{_NEEDED}|{_SURE}|{_HOLD}|{_LOAD}|{_BUDGETED})"
+    is_asked = re.search(rf"\b(?:{_SURE}|{_HOLD}|{_NEEDED}|{_BUDGETED})\b", rest)
+    if not is_asked or re.search(_APPLIED, rest) or not is_made_of(rest, used):
+        return None
+    return Term(expression="gram_n", dimension=f"{one}/{each}", words="")
+
+
+_BUDGETED = (
+    r"(?:budget|budgeted|assume|assuming|assumed|figure|figuring|reckon|reckoning|plan|allow|"
+    r"allowing|calculate|work|go|use|using|rule|lifted|count|counting|per|gram|factor|coefficient)"
+)
+_APPLIED = (
+    r"\b(?:apply|applying|applied|exert|exerting|exerted|feel|felt|now|currently|present|current|"
+    r"measured|measure)\b"
+)
+
+
+def _asks_load(asked: AskedWords, words: str) -> bool:
+    if asked.unit and UNITS.get(asked.unit, UNITS["N"]).dimension != "mass":
+        return False
+    return bool(asked.unit) or re.search(rf"\b{_LOAD}\b", words) is not None
+
+
+def _is_load(rest: str) -> bool:
+    """Whether words ask what is surely held."""
+    used = rf"(?:{_FILL}|{_SURE}|{_HOLD}|{_LOAD}|{_FORCE})"
+    is_held = re.search(rf"\b(?:{_SURE}|{_HOLD})\b", rest) is not None
+    is_asked = re.search(rf"\b(?:{_LOAD}|what)\b", rest) is not None
+    return is_held and is_asked and not _DENIED.search(rest) and is_made_of(rest, used)
+
+
+def _is_needed(rest: str) -> bool:
+    """Whether words ask for the force that is needed."""
+    used = (
+        rf"(?:{_FILL}|{_SURE}|{_HOLD}|{_LOAD}|{_FORCE}|{_NEEDED}|more|extra|additional|further|"
+        r"short|shy|lack|lacking|missing|shortfall|far)"
+    )
+    is_needed = _SHORT.search(rest) or re.search(rf"\b(?:{_NEEDED}|to {_HOLD}|for)\b", rest)
+    return bool(is_needed) and not _DENIED.search(rest) and is_made_of(rest, used)
+
+
+def _is_filled(rest: str) -> bool:
+    return is_made_of(
+        rest, rf"(?:{_FILL}|{_SURE}|{_HOLD}|{_LOAD}|{_FORCE}|{_NEEDED}|gives?|offers?)"
+    )
+
+
+_DENIED = re.compile(
+    r"\b(?:not (?!(?:to )?(?:slip|drop|fail))|too|more than|less than|spare|left|over|under)\b"
+)
+
+
+def _with_term(
+    asked: AskedWords, words: str, dimension: str, before: re.Pattern[str]
+) -> list[tuple[Term, str]]:
+    """Every term of a dimension that stands in the words, with the words that remain."""
+    each = words.split()
+    found = []
+    for begin in range(len(each)):
+        for end in range(min(len(each), begin + MOST_TERM_WORDS), begin, -1):
+            term = asked.term(" ".join(each[begin:end]))
+            if term is None or term.dimension != dimension or term.words == "it":
+                continue
+            if term.expression in ("force_n", "mass_g"):
+                continue
+            led = f"{' '.join(each[:begin])} " if begin else ""
+            if (lead := before.search(led)) is None:
+                continue
+            rest = f"{led[: lead.start()]} {' '.join(each[end:])}"
+            found.append((term, " ".join(rest.split())))
+            break
+    return found
+
+
+def _told_mass(words: str) -> list[tuple[Term, str]]:
+    """The mass that somebody told, where a question names it as that."""
+    if (found := _TOLD_MASS.search(words)) is None:
+        return []
+    return [(usual("mass"), f"{words[: found.start()]} {words[found.end() :]}")]
