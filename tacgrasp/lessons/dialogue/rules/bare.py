@@ -158,13 +158,13 @@ def bare_query(words: str, numbers: Sequence[float]) -> str:
     if _HOW_MUCH.fullmatch(words):
         return "amount free_area %."
     if found := _COMPARED.fullmatch(words):
-        free = bool(found["free"] or found["free5"])
-        if free == bool(found["free2"]):
+        is_free = bool(found["free"] or found["free5"])
+        if is_free == bool(found["free2"]):
             return ""
-        return _half(is_free=free == bool(found["more"]))
+        return _half(is_free=is_free == bool(found["more"]))
     if found := _MOSTLY.fullmatch(words):
-        free = found["free"] or found["free2"] or found["free3"]
-        return _half(is_free=bool(free) == (not found["least"]))
+        named = found["free"] or found["free2"] or found["free3"]
+        return _half(is_free=bool(named) == (not found["least"]))
     if found := _COUNTED.fullmatch(words):
         return _counted(found, numbers, is_free=bool(found["free"]))
     if found := _COVERS.fullmatch(words):

@@ -238,13 +238,13 @@ def _side(words: str) -> str:
                 return ""
             sides.append(side)
             bare = f"{bare[: found.start()]} {bare[found.end() :]}"
-    rest = bare.split()
+    left_over = bare.split()
     if not sides or len({"x" if side in "LR" else "y" for side in sides}) < len(set(sides)):
         return ""
     if (
-        not all(word in FILLERS for word in rest)
-        or "or" in rest
-        or rest[:1] in (["which"], ["what"])
+        not all(word in FILLERS for word in left_over)
+        or "or" in left_over
+        or left_over[:1] in (["which"], ["what"])
     ):
         return ""
     denied = "not " if _NOT_YES.search(bare) else ""
