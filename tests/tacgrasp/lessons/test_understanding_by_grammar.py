@@ -260,15 +260,16 @@ def test_conditions_of_one_clause_get_one_verdict(question, text):
         ("Either a star or an ellipsoid, am I right?", "Yes, it is an ellipsoid."),
         ("Over half of the gel remains bare, doesn't it?", "Yes, the contact area is 12 %."),
         ("How deep is it, and is it a star?", "The depth is 0.19 mm; no."),
-        ("Is it further off sideways or further off up-and-down?", "Up-and-down."),
+        (
+            "Is it further off sideways or further off up-and-down?",
+            "Up-and-down: x is +0.8 mm and y is -1.2 mm.",
+        ),
     ],
 )
 def test_a_rule_reads_what_the_grammar_does_not_compose(question, text):
     assert answered(understood(Refusing(), question), HELD).answer.text == text
 
 
-@pytest.mark.parametrize(
-    "question", ["Is it neither zorby nor deep?", "What mass can 0.5 N hold?", "x in pixels"]
-)
+@pytest.mark.parametrize("question", ["Is it neither zorby nor deep?", "x in pixels"])
 def test_what_no_query_has_is_not_put_to_the_model(question):
     assert understood(Refusing(), question) is None
