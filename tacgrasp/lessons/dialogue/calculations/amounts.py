@@ -55,7 +55,8 @@ _ALONE = re.compile(
 def calculated_amount(asked: AskedWords) -> Calculated | None:
     """The number that a question asks to calculate; None where it asks for none."""
     readers: tuple[Callable[[AskedWords], Term | None], ...] = (
-        pressure, circle, on_scale, safety_factor, needed, load, unused, share, ratio, missing, apart, taken, from_point, whole_share, into_band,
+        pressure, circle, on_scale, safety_factor, needed, load,
+        unused, share, ratio, missing, apart, taken, from_point, whole_share, into_band,
         _counted, _weight, _stood_at, _alone,
     )  # fmt: skip
     for reader in readers:

@@ -70,7 +70,10 @@ _TOLD_MASS = re.compile(
     rf"for (?:the |this |that |our )?{THING}|(?:that )?(?:i|we|you|it) (?:\w+ ){{0,2}}\w+|"
     rf"(?:as )?(?:stated|told|given|known|recorded)))*"
 )
-_INTO = r"(?:(?:right|exactly|just|only) )?(?:at|with|by|using|under|for|given|from|of|up to|right up to|all the way (?:up )?to|to)"
+_INTO = (
+    r"(?:(?:right|exactly|just|only) )?(?:at|with|by|using|under|for|given|from|of|up to|"
+    r"right up to|all the way (?:up )?to|to)"
+)
 _GRIPPING = (
     r"(?:(?:squeezing|gripping|pressing|clamping|pinching|holding|pushing|squeezed|clamped|gripped|"
     r"applying|exerting|going|go|went|may|use|using|used|reach|reached|hit|run|could|can|would|"
