@@ -32,9 +32,9 @@ _GRIPPED = re.compile(
 )
 _THING = re.compile(
     r"\b(?:it|this|that|these|those|he|she|they|him|her|his|its|them)\b|\b(?:my|our|your) \w+|"
-    r"^(?:(?:is|are|was|were|does|do|did|has|have|had|will|would|could|might|can) |(?:how (?:much|fresh|"
-    r"hot|cold|warm)|whose) (?:is|are|was|does|did|do you (?:reckon|think|guess)) )(?:the|little) |"
-    r"\bthe (?:little |poor |old )?(?:thing|object|guy|item|fellow|one|chap|bugger|lot)\b"
+    r"^(?:(?:is|are|was|were|does|do|did|has|have|had|will|would|could|might|can) |(?:how (?:much|"
+    r"fresh|hot|cold|warm)|whose) (?:is|are|was|does|did|do you (?:reckon|think|guess)) )(?:the|"
+    r"little) |\bthe (?:little |poor |old )?(?:thing|object|guy|item|fellow|one|chap|bugger|lot)\b"
 )
 _TWO_KINDS = re.compile(
     r"(?:(?:is|are) (?:it|this|that|these|"
