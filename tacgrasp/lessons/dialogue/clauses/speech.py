@@ -63,7 +63,7 @@ _MODIFIES = re.compile(
     r"kilos?|percent\w*|\w+ terms|which)|as|by|from|along|without|ignor\w+|measur\w+|sideways|"
     r"lengthw\w+|between|out of|left|right|top|bottom|going by|judg\w+|look\w*|according|no|"
     r"never mind|of|to|end|regardless|disregard\w*|count\w*|with|at|on|under|over|per|not|leaving|"
-    r"apart|except|only|two|three|each|every|"
+    r"apart|except|only|each|every|"
     r"roughly|for (?!my|our|the|your))\b",
     re.I,
 )
