@@ -177,7 +177,11 @@ def _calculated(asked: Calculated, scene: AskedScene) -> Answer:
 
 def _chosen(word: str, clauses: list[str], choices: Sequence[str]) -> str:
     """A word with the readings behind it, unless they name another one to choose from."""
-    others = "|".join(re.escape(choice) for choice in choices if choice != word)
+    others = "|".join(
+        re.escape(choice[:1] if choice[:2] in ("x ", "y ") else choice)
+        for choice in choices
+        if choice != word
+    )
     told = ", ".join([*clauses[:-2], " and ".join(clauses[-2:])])
     if not told or re.search(rf"\b(?:{others})\b", told, re.I):
         return f"{capital(word)}."

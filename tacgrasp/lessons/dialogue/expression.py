@@ -119,13 +119,17 @@ class Expression:
     def power_of_ten(self) -> float:
         """The power of ten that all of it is multiplied with, or divided by; else 1."""
         match self._tree:
+            case ast.BinOp(
+                op=ast.Div(),
+                left=ast.BinOp(op=ast.Mult(), left=left, right=right),
+                right=ast.Name(),
+            ):
+                return _power_of_ten(right) or _power_of_ten(left) or 1.0
             case ast.BinOp(op=ast.Mult(), left=left, right=right):
-                power = _power_of_ten(right) or _power_of_ten(left)
+                return _power_of_ten(right) or _power_of_ten(left) or 1.0
             case ast.BinOp(op=ast.Div(), right=right):
-                power = 1 / (_power_of_ten(right) or 1.0)
-            case _:
-                power = None
-        return power or 1.0
+                return 1 / (_power_of_ten(right) or 1.0)
+        return 1.0
 
     @property
     def is_percentage(self) -> bool:

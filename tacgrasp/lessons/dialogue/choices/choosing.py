@@ -58,11 +58,19 @@ _OF_FORCE = re.compile(r"\b(?:weak|strong|tight|loose|grip|force|hard)\b")
 
 Reader = Callable[[AskedWords, Offer, RestOfQuestion], str | None]
 
+_NO_CHOICE = re.compile(
+    r"\bwithin \S+ ?(?:%|percent|per cent)|\b(?:bigger|larger|greater|smaller|more|less) than .*"
+    r"\b(?:up or down|left or right|sideways or)\b"
+)
+"""'Within 10 % of the limit or past it', 'bigger than the offset up or down'."""
+
 
 def chosen(question: str) -> Calculated | None:
     """What a question means that names alternatives; None where it says something else too."""
     asked = asked_words(spelled(question))
     if " or " not in f" {asked.words} " or is_one_way(asked.words):
+        return None
+    if _NO_CHOICE.search(asked.words):
         return None
     if truth := nearer_of(asked):
         return chosen_by(truth, question)

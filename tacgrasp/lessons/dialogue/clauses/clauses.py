@@ -33,6 +33,22 @@ def judged_as_one(question: str) -> Meaning | None:
     return judged(question) if _AS_ONE.search(question) else None
 
 
+_NOT_SO = re.compile(
+    r"(?:n't|n’t|\bnot|\bnever)\b[^?]*[,;] *"
+    r"(?:right|correct|true|yes|agreed|is that (?:so|right))[?. ]*$",
+    re.I,
+)
+"""'It hasn't sunk in by 1 mm, right?' asks whether it has not."""
+
+_MORE_BESIDE = re.compile(
+    r"\bor (?:more|less|fewer) (?:below|above|under|over|from|short|than)\b", re.I
+)
+_TO_THE_LIMIT = re.compile(
+    r"\b(?:to|till|until|before) (?:the |its |our )?(?:limit|ceiling|cap)\b", re.I
+)
+"""What is left to the limit is not the limit."""
+
+
 def clauses_of(question: str, read: Reader) -> Meaning | None:
     """What a question means by its clauses; None where one of them has no meaning here.
 
@@ -40,6 +56,8 @@ def clauses_of(question: str, read: Reader) -> Meaning | None:
         question: The question.
         read: Reads one clause of a list in another way.
     """
+    if any(each.search(question) for each in (_NOT_SO, _MORE_BESIDE, _TO_THE_LIMIT)):
+        return None
     if meaning := judged(question) or kept(question) or listed(question, read):
         return meaning
     if _OPEN.match(question) and _is_single(item := item_of(question)):

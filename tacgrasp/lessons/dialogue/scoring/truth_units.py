@@ -6,21 +6,32 @@ A file may state what is asked for in microns as ``depth_mm`` or as ``depth_mm *
 from __future__ import annotations
 
 import math
+import re
 
 from tacgrasp.lessons.dialogue.expression import Expression
 from tacgrasp.lessons.dialogue.quantities import GRAVITY_N_PER_G, UNITS
 
 _DIMENSIONS = {"_mm": "length", "_mm2": "area", "_n": "force", "_percent": "fraction", "_g": "mass"}
 
+_FORCES = ("force_n", "limit_n", "band_low_n", "band_high_n")
+_OVER_GRAM = re.compile(r"/ *gram_n\b")
+
 
 def dimension_of(truth: Expression) -> str:
     """What a number measures, by the first name of its truth; '' for a word.
 
     A quotient of two names of one dimension is a ratio, and 100 of them, or of a name over a
-    number, percent. A mass times what a gram weighs is a force, and a force over it a mass.
+    number, percent. A mass times what a gram weighs is a force, and a force over it a mass; so of
+    the force that holds a gram. The root of an area is a length, a force over an area a pressure.
     """
     if truth.is_percentage:
         return "fraction"
+    if "gram_n" in truth.names and set(truth.names) <= {"mass_g", "gram_n", *_FORCES}:
+        return "mass" if _OVER_GRAM.search(truth.text) else "force"
+    if truth.names == ("area_mm2",) and "sqrt" in truth.text:
+        return "length"
+    if set(truth.names) == {"force_n", "area_mm2"} and "/" in truth.text:
+        return "pressure"
     dimensions = [next(filter(None, map(_dimension_of_name, names)), "") for names in truth.divided]
     has_gravity = any(map(_is_gravity, truth.numbers))
     if has_gravity and set(dimensions) == {"force", "mass"}:

@@ -105,6 +105,17 @@ def test_a_truth_may_be_stated_in_the_unit_that_is_asked_for():
     assert right("1.9 mm", "number", "10 * depth_mm")
 
 
+def test_loads_lengths_and_pressures_are_told_by_their_truths():
+    assert right("63 g", "number", "limit_n / gram_n")  # 1.3 N
+    assert not right("63 N", "number", "limit_n / gram_n")
+    assert right("0.51 N", "number", "mass_g * gram_n")
+    assert not right("0.51 g", "number", "mass_g * gram_n")
+    assert right("6.9 mm", "number", "2 * sqrt(area_mm2 / 3.14159)")
+    assert right("22.4 kPa", "number", "1000 * force_n / area_mm2")
+    assert right("0.0224 N/mm²", "number", "force_n / area_mm2")
+    assert not right("0.0224 N", "number", "force_n / area_mm2")
+
+
 def test_a_choice_by_a_condition_is_one_of_its_words():
     truth = "'above' if force_n > 1 else 'below'"
     assert right("Below.", "choice", truth)
