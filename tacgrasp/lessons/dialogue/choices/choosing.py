@@ -208,6 +208,8 @@ def _height(asked: AskedWords, offer: Offer, rest: RestOfQuestion) -> str | None
 def _is_back(words: str, rest: RestOfQuestion) -> bool | None:
     """Whether it is asked where the object must go to be in the middle; None where unclear."""
     is_moved = _MOVED.search(words) is not None
+    if re.search(r"\bthan\b", words):
+        return None
     if not is_moved:
         return None if "move" in rest.cues else False
     return True if "middle" in rest.cues and not _BODY.search(words) else None
@@ -243,7 +245,9 @@ def _band(asked: AskedWords, offer: Offer, rest: RestOfQuestion) -> str | None:
 
 
 def _in_band(asked: AskedWords, offer: Offer, rest: RestOfQuestion) -> str | None:
-    if any(term.expression != "force_n" for term in rest.terms) or "band" not in rest.cues:
+    if any(term.expression != "force_n" for term in rest.terms):
+        return None
+    if "band" not in rest.cues and "target" not in offer.said["within"]:
         return None
     if not rest.has_only("band", "force", "place"):
         return None
@@ -268,7 +272,7 @@ def _cut(asked: AskedWords, offer: Offer, rest: RestOfQuestion) -> str | None:
 def _slip(asked: AskedWords, offer: Offer, rest: RestOfQuestion) -> str | None:
     """Whether the grip surely holds a named mass, or the given one."""
     loads = [term for term in rest.terms if term.expression != "force_n"]
-    if len(loads) > 1 or not rest.has_only("holds", "mass", "force"):
+    if len(loads) > 1 or not rest.has_only("holds", "mass", "force", "place"):
         return None
     if loads and (loads[0].dimension != "mass" or loads[0].expression == "holds_g"):
         return None

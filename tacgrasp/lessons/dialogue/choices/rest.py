@@ -27,7 +27,7 @@ _CUES = {
         r"(?:(?:target|wanted|goal|force|desired|requested|required|agreed|ordered|asked for|"
         r"intended|set|permitted|allowed|given|specified|our|the) )*"
         r"(?:band|range|window|corridor|interval|goal|target)(?: (?:wanted|agreed|given|asked for|"
-        r"that (?:i|we) (?:want|wanted|asked for|agreed)))?"
+        r"that (?:i|we) (?:want|wanted|asked for|agreed)))?|wanted|desired|requested|ordered"
     ),
     "force": (
         r"press(?:es|ed|ing)?|push(?:es|ed|ing)?|squeez(?:e|es|ed|ing)|gripp(?:ed|ing)|"
@@ -111,8 +111,9 @@ _FILLER = re.compile(
     r"its|she|he|her|him|they|them|one|ones|of|in|on|at|to|by|for|from|with|than|as|or|either|"
     r"versus|vs|rather|just|only|please|what|so|then|currently|presently|actually|really|"
     r"still|already|exactly|precisely|quite|measured|against|compared|relative|respect|"
-    r"given|stated|told|known|reach|hit|arrive|achieve|anything|"
-    r"felt|feel|feeling|feels|actual|present|current|true|real|whole|overall|total|both|"
+    r"given|stated|told|known|status|state|hanging|some|my|got|ought|reach|hit|arrive|achieve|"
+    r"anything|got hold of|felt|feel|feeling|feels|actual|present|current|true|real|whole|overall|"
+    r"total|both|"
     r"(?:for (?:the |my |our |this |a )?(?:[a-z]+ ){0,2})?(?:chart|log|logbook|report|form|sheet|"
     r"records?|file|protocol|notes|paperwork|table)|i tick #?\w+ box(?: only)?|"
     r"dear|darling|mate|chef|boss|friend|bet|rather|more likely|likely|"

@@ -136,11 +136,11 @@ COMPARED = WordScale(
             r"and (?:over|above|more|up(?:wards)?|higher)|over|above|more|deeper|"
             r"heavier|bigger|larger|higher|greater|stronger|harder|firmer|"
             r"longer|wider|further|farther|beyond|past|tighter|exceeds?|exceeding|in excess|"
-            r"broader|taller|upwards|in excess of"
+            r"broader|thicker|taller|upwards|in excess of"
         ),
         "less": (
             r"under|below|less|shallower|lighter|smaller|lower|lesser|weaker|softer|gentler|"
-            r"shorter|narrower|nearer|closer|short|shy|beneath|fewer|looser|within|inside"
+            r"shorter|narrower|thinner|nearer|closer|falls? short|short|shy|beneath|fewer|looser"
         ),
     }
 )
@@ -151,7 +151,8 @@ STEP = WordScale(
         "more": (
             rf"tighten(?: up| it)?|{_SQUEEZE} {_HARDER}|{_HARDER} (?:force|grip|pressure|squeeze)|"
             r"(?:increase|raise|add)(?: (?:the )?(?:force|grip|pressure|squeeze))?|add to it|"
-            r"clamp down|bear down|step it up|more|harder|tighter|firmer|up it"
+            r"clamp down|bear down|step it up|firm up|close (?:further|more|a bit)|put more on|"
+            r"more|harder|tighter|firmer|up it"
         ),
         "less": (
             rf"loosen(?: up| off| it)?|{_SQUEEZE} {_SOFTER}|"
@@ -159,7 +160,8 @@ STEP = WordScale(
             r"(?:ease|let|back|slacken|lay|dial)(?: (?:it|up))? (?:off|up|back|down)(?: a (?:bit|"
             r"little|touch))?|ease|slacken|"
             r"(?:decrease|reduce|lower|cut|drop)(?: (?:the )?(?:force|grip|pressure|squeeze))?|"
-            r"relax|let go a (?:bit|little)|give (?:it )?(?:some )?slack|less|softer|looser|"
+            r"relax|let go a (?:bit|little)|open(?: up)? (?:a (?:bit|little|touch)|slightly)|"
+            r"take (?:some|a (?:bit|little)) off|give (?:it )?(?:some )?slack|less|softer|looser|"
             r"gentler|lighter|release(?: a (?:bit|little))?"
         ),
         "keep": (
@@ -183,7 +185,7 @@ TOUCH = WordScale(
         "free": (
             r"free|empty|nothing(?: at all)?|(?:thin |only |just |plain )?air|clear|bare|untouched|"
             r"no(?: (?:contact|object|touch))?|vacant|idle|unloaded|unoccupied|uncovered|"
-            r"not touching|empty handed|out of contact|disengaged|empty air|none"
+            r"not touching|empty handed|out of contact|disengaged|empty (?:air|space)|none|thin air"
         ),
     }
 )
@@ -244,8 +246,9 @@ BAND = WordScale(
             r"gently|slack)|weak|light|loose|below|under|beneath|short|low|slack|underneath"
         ),
         "within": (
-            r"in between|in (?:band|range)|within|inside|in|ok|okay|fine|alright|just right|right|"
-            r"good|on target|spot on|acceptable|correct|as wanted|on the mark|bang on|perfect"
+            r"in between|in (?:band|range)|within|inside|in|ok|okay|fine|alright|just right|"
+            r"about right|right|good|on target|spot on|acceptable|correct|as wanted|"
+            r"on the mark|bang on|perfect"
         ),
         "above": (
             r"too (?:strong|strongly|hard|much|tight|tightly|high|firm|firmly|heavy|rough)|"
@@ -287,7 +290,7 @@ SLIP = WordScale(
     {
         "stays": (
             r"(?:surely |safely )?held|secure(?:ly held)?|safe|safely held|stays?(?: put)?|holds?|"
-            r"firm|sure|sticks?|grips?|fine|in hand|steady|okay|ok|keeps? hold"
+            r"firm|sure|sticks?|grips|fine|in hand|steady|okay|ok|keeps? hold"
         ),
         "slips": (
             r"(?:at )?risk(?: of (?:slipping|slip|dropping|falling|loss|being dropped))?|"
