@@ -100,6 +100,12 @@ _COMPARED = re.compile(
     r")?"
     rf"{_OTHER_STATE}(?: {_PAD})?"
 )
+_OUTWEIGHS = re.compile(
+    rf"{_AUX}(?:the )?{_STATE} (?:area|part|portion|share|surface|zone|region)(?: of {_PAD})? "
+    r"(?:(?P<less>(?:is |be )?(?:smaller|less) than)|outweighs?|exceeds?|"
+    r"(?:is |be )?(?:larger|bigger|greater|more) than|larger than|bigger than) (?:the )?"
+    rf"{_OTHER_STATE}(?: (?:one|area|part|portion|share|surface|zone|region))?"
+)
 _MOSTLY = re.compile(
     rf"{_AUX}(?:{_MOST} of {_PAD} {_IS}{_STATE}|{_PAD} {_IS}(?:(?:{_MAINLY}) {_OTHER_STATE}|"
     rf"more {_OTHER_STATE.replace('2>', '3>')} than (?:not|{_STATE.replace('>', '4>')})))"
@@ -162,9 +168,13 @@ def bare_query(words: str, numbers: Sequence[float]) -> str:
         if is_free == bool(found["free2"]):
             return ""
         return _half(is_free=is_free == bool(found["more"]))
+    if found := _OUTWEIGHS.fullmatch(words):
+        if bool(found["free"]) == bool(found["free2"]):
+            return ""
+        return _half(is_free=bool(found["free"]) != bool(found["less"]))
     if found := _MOSTLY.fullmatch(words):
-        named = found["free"] or found["free2"] or found["free3"]
-        return _half(is_free=bool(named) == (not found["least"]))
+        is_free = bool(found["free"] or found["free2"] or found["free3"])
+        return _half(is_free=is_free == (not found["least"]))
     if found := _COUNTED.fullmatch(words):
         return _counted(found, numbers, is_free=bool(found["free"]))
     if found := _COVERS.fullmatch(words):

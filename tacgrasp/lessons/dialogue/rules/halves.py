@@ -127,7 +127,7 @@ FILLERS = frozenset(
     """
     a an the this that it its am mean dent bit i'm she he is are was were be been being do does
     did has have had can could may might would will i we you they my our your one there here where
-    which what whereabouts
+    which what whereabouts midline line
     in on at to of with within inside somewhere anywhere for me us and so then now still just only
     really actually clearly mostly mainly rather slightly somewhat roughly about quite already
     lie lies lying lay sit sits sitting sat rest rests resting land lands landed landing located
@@ -169,7 +169,8 @@ _DENIED_FIRST = re.compile(r"(?:is|was) (?:it|that) not (?:so|true|right|correct
 """'Is it not so that it is left' may ask whether it is."""
 
 _QUADRANT = re.compile(
-    r"(?:(?:tell|give|name|say)(?: me)? )?(?:in |into |on )?(?:(?:which|what)(?: of the (?:four|"
+    r"(?:(?:tell|give|name|say)(?: me)?(?: the)? )?(?:in |into |on )?(?:(?:which|what)(?: of the "
+    r"(?:four|"
     r"#))? )?"
     r"(?:quadrant|quarter)\b(?P<rest>(?! (?:percent|of the (?:limit|force|band))).*)"
 )
@@ -238,13 +239,13 @@ def _side(words: str) -> str:
                 return ""
             sides.append(side)
             bare = f"{bare[: found.start()]} {bare[found.end() :]}"
-    left_over = bare.split()
+    left = bare.split()
     if not sides or len({"x" if side in "LR" else "y" for side in sides}) < len(set(sides)):
         return ""
     if (
-        not all(word in FILLERS for word in left_over)
-        or "or" in left_over
-        or left_over[:1] in (["which"], ["what"])
+        not all(word in FILLERS for word in left)
+        or "or" in left
+        or left[:1] in (["which"], ["what"])
     ):
         return ""
     denied = "not " if _NOT_YES.search(bare) else ""

@@ -53,7 +53,8 @@ _AXIS_FILLERS = frozenset(
     """.split()  # noqa: SIM905
 )
 _BACK = re.compile(
-    r"(?=.*\b(?:back|return|re ?cent(?:er|re|red|ered)|(?:to|onto|into|in) the (?:very )?(?:middle|"
+    r"(?=.*\b(?:back|return|re ?cent(?:er|re|red|ered)|(?:to|onto|into|in|at) the (?:very "
+    r")?(?:middle|"
     r"center)|"
     r"centered|middle)\b)"
     r".*\b(?:it|contact|object|touch|thing|patch|piece|part|item|imprint|she)\b.*"

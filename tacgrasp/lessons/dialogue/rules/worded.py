@@ -20,7 +20,7 @@ from dataclasses import dataclass
 from cltp.tactile.states import CLASSES
 from tacgrasp.lessons.dialogue.families.classes.lexicon import Named, named, words_pattern
 from tacgrasp.lessons.dialogue.plain_words import plain_words
-from tacgrasp.lessons.dialogue.plainer import AUXILIARY
+from tacgrasp.lessons.dialogue.rules.worded_phrases import FILLERS, PHRASES, REMARKS
 
 MOST_CLAUSES = 6
 """Most clauses of a question that is read so. Our choice: longer ones have more to say."""
@@ -29,81 +29,6 @@ MOST_NAMED = 5
 """Most words that are asked for at once. Our choice, as of joined questions."""
 
 _CLAUSE = re.compile(r"[.?!;:,()–—]+(?=\s|$)|\s+[-–—]+\s+|[()]")
-_PAD = r"(?:the|your|our|my|this) (?:\w+ )?(?:pad|gel|sensor|finger|fingers|fingertip|gripper|skin)"
-_REMARKS = re.compile(
-    "|".join(
-        (
-            # one of several is enough
-            r"(?:is|was|would|could|can|might) (?:it|this|that) (?:be )?(?:any |either )?(?:one "
-            r")?of "
-            r"(?:them|those|these|the)(?: two| three| #| following)?"
-            r"(?: (?:that |which )?(?:you|we|i)(?: \w+){1,3})?",
-            r"(?:say |answer )?yes (?:means?|if|for|when|to)\b.*|"
-            r"(?:just )?(?:say|answer) yes (?:if|for|when)\b.*",
-            r"(?:either|any|both)(?: one)?(?: of (?:them|those|these|the))?(?: two| three| #| "
-            r"ones?)?"
-            r"(?: \w+)? (?:counts?|is|are|would|will|does|do|works?|suits?|makes?|goes?|go)\b.*",
-            r"one of (?:the|those|these|them)(?: two| three| #)?(?: at least| is enough)?",
-            r"(?:either|any)(?: one)?(?: of (?:them|those|these|the)(?: two| three| #)?)?",
-            # was it right
-            r"(?:did|have|do) (?:i|we|they|he|she|my \w+) (?:win|won|lose|lost|get it right|guess "
-            r"(?:right|correctly|well)|got it right|guessed right|have it right|"
-            r"hit it)",
-            r"(?:am|was|were|are|is|would) (?:i|we|they|he|she|that|this|it|"
-            r"the \w+|my \w+)(?: be)? (?:not )?(?:right|correct|true|so|wrong|mistaken|accurate|"
-            r"dreaming|justified|a good (?:bet|guess)|the case|not)",
-            r"(?:does|do|did|can|could|would|will) (?:the|your|this|that|my)? ?"
-            r"(?:touch|contact|sensor|gel|pad|feel|reading|readings|finger|fingers|fingertip|press|"
-            r"imprint|you|it|evidence|tactile \w+)(?: \w+)? (?:bears?|back|confirms?|agrees?|fits?|"
-            r"match|"
-            r"matches|"
-            r"supports?|concur|say so|tell|verify|second)(?: (?:that|this|it|me|out|up|with|so|"
-            r"as much|my \w+|what you feel|(?:that|this|it|me) (?:out|up)))*",
-            r"(?:is|was) (?:it|that|this)(?: (?:one|so|it|not|what you feel|what we have|"
-            r"what you have|what it is|there|borne out|confirmed))?(?: by (?:the )?(?:touch|"
-            r"contact|feel|sensor))?",
-            r"(?:would|do|can|could) (?:you|we) (?:not )?(?:agree|confirm|concur|say so|say that|"
-            r"second that|go along)(?: (?:to|with) (?:that|it|me))?(?: (?:that )?it is (?:one|"
-            r"so))?",
-            r"(?:please )?(?:confirm|deny|confirm or deny|check|verify)(?: (?:that|this|it))?"
-            r"(?: please| for me)?",
-            r"(?:right|correct|true|yes|no|nah|ok|okay|agreed?|concur|deal|yeah|eh|huh|innit|true "
-            r"or false|"
-            r"yes or no|right or wrong|y n|true false|or (?:not|no|nah|what|am i (?:wrong|"
-            r"mistaken)|"
-            r"is it(?: not)?|have i got (?:it|that) wrong)|is it|is it not|does it|does it not|are "
-            r"they|"
-            r"do you think|would you say|in your (?:view|opinion|judgement)|by (?:feel|touch)|"
-            r"as far as you can (?:tell|feel)|from what you feel|what do you (?:say|think)|"
-            r"(?:i|we) (?:would )?(?:suppose|think|guess|take it|believe|reckon|presume|gather|"
-            r"assume|bet|hope|"
-            r"expect|imagine|say)|"
-            rf"{AUXILIARY} not (?:it|they|that|this|we|you|i)|"
-            r"by any chance|then|or neither(?: of (?:them|these|those|the two))?|or neither one)",
-            r"(?:i|we) (?:do not|would not) (?:mind|care)(?: (?:which|either way)(?: one| of "
-            r"them)?)?|"
-            r"(?:it is |is it )?(?:all )?the same to me",
-            # have we one
-            r"(?:have|has|had|do|did|does|is|was|are) (?:we|you|i|it|there|this|that|they)"
-            r"(?: (?:got|have|feel|see|find|hold|holding|touching|feeling))? "
-            r"(?:one|any|either|it|that|those)(?: (?:here|there|then|(?:one )?of (?:them|those|"
-            r"these)))?",
-            # address, beginnings, likenesses
-            r"(?:my (?:good |dear |old )?(?:machine|friend|robot|man|dear)|robot|mate|buddy|pal|"
-            r"dear|sir|hey|hi|hello|yo|ok|okay|so|well|now|right|please|thanks|thank you|listen|"
-            r"look|"
-            r"(?:a |one |my )?(?:quick |sanity |small |little |silly |last |another |first |next )*"
-            r"(?:question|check|query)|quick one|tell me|honestly|be honest|go on|come on|excuse "
-            r"me|sorry|"
-            r"just checking|one more|next|hm+|um+|uh+|oh|and|the (?:shape|texture|surface|finish|"
-            r"form)|"
-            r"shape|texture|surface|finish|form|about the (?:shape|texture|surface))",
-            r"(?:just |a bit |kind of )?(?:like|as) (?!an?$).*",
-        )
-    )
-)
-"""Clauses that name nothing and change nothing."""
-
 _ENOUGH = re.compile(
     r"\b(?:either|any) (?:one |of |would|will|counts?|is |works?|does|do|makes?)|"
     r"\bone of <n>|\bone of (?:them|those|these|the|(?:the |those |these )?(?:two|#))\b|\bof the "
@@ -168,46 +93,6 @@ _PLACED = re.compile(
 _OPEN = re.compile(r"^(?:what|which|how|why|where|when|who)\b")
 _OR_NOT = re.compile(r" or (?:not|no|nah|nope|what|am i (?:wrong|mistaken)|is it not)$")
 _DOUBLED = re.compile(r"\b(?:rather than|instead of|as opposed to|more than|less than|than)\b")
-_FILLERS = frozenset(
-    """
-    a an the this that these those it they he she we i you me us my our your there here one
-    is are was were be been being am do does did has have had got get getting could can may might
-    would will
-    should expect expected expecting suspect suspected think thought thinking believe believed
-    bet betting wager guess guessed guessing say saying said call called consider hope hoping hoped
-    assume assumed reckon reckoned imagine fear feared take taken swear sworn told tell
-    claim claimed describe described class classed classify rate count deem
-    is on my hunch bet gut feeling impression understanding idea theory
-    to feel feels feeling felt touch touches touching touched hold holds holding held grip grips
-    gripping gripped grasp grasping press presses pressing pressed squeeze squeezing catch caught
-    hit sense sensing detect detecting detected find found meet met notice
-    look looks seem seems appear appears resemble resembles come comes across
-    shape shaped shapes form figure outline geometry profile section cross-section kind sort type of
-    like as pattern patterned texture textured finish finished surface relief feel skin exterior
-    coating face outside material imprint print mark contact object thing item piece part one stuff
-    thingy specimen sample side end tip
-    under against on at in between into by from with for pad gel sensor finger fingers fingertip
-    gripper fingertips hand
-    what which whether if about maybe perhaps really actually indeed certainly truly possibly
-    probably surely definitely clearly quite rather fairly pretty very somewhat at all just only
-    any some sort so well then now right still also too even simply basically honestly
-    right correct wrong true mistaken in thinking assuming saying supposing believing
-    both either or and nor neither not no n't
-    little whole entire guessing supposing perfect proper regular
-    fine good enough by money anything something fair description apt term accurate word name proper
-    suitable fitting honest
-    deal dealing handling recognise recognize recognised
-    now currently presently please yo hey
-    """.split()  # noqa: SIM905
-)
-_NOUNS = re.compile(
-    rf"\b(?:on|against|under|in|into|between|at|by|to|from|with) {_PAD}\b|"
-    r"\bby any (?:chance|means)\b|\bfor (?:once|sure|real|certain)\b|\bsome sort of\b|\ball over\b|"
-    r"\bof (?:it|this|that|(?:the|this|that|my|our|your) (?:object|thing|item|piece|part))\b|"
-    r"\b(?:it is )?(?:the case|fair|safe|possible|true) (?:that|to say(?: that)?)\b|"
-    r"\b(?:deserves?|merits?) the name\b|\b(?:answers? to|fits?|matches|match) the description\b"
-)
-"""Phrases that change nothing, whose words would elsewhere."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -227,7 +112,7 @@ def worded_query(question: str) -> str:
     if not parts or len(parts) > MOST_CLAUSES or "#" in " ".join(parts):
         return ""
     for part in parts:
-        if _REMARKS.fullmatch(part):
+        if REMARKS.fullmatch(part):
             continue
         clause = _clause(part)
         if clause is None:
@@ -247,12 +132,12 @@ def _clause(words: str) -> _Clause | None:
     while shorter := _NOT_THE_OTHER.search(bare):
         found.pop(bare[: shorter.end()].count("<n>") - 1)
         bare = f"{bare[: shorter.start()]}{bare[shorter.end() :]}"
-    rest = _OTHER_THAN.sub("", _NOUNS.sub("", bare)).split()
+    rest = _OTHER_THAN.sub("", PHRASES.sub("", bare)).split()
     if not found or _DOUBLED.search(_OTHER_THAN.sub("", bare)) or _PLACED.search(bare):
         return None
     if _OPEN.match(bare) and " or " not in bare:
         return None
-    if any(word not in _FILLERS and word != "<n>" for word in rest):
+    if any(word not in FILLERS and word != "<n>" for word in rest):
         return None
     said = tuple(match[1] for match in found)
     return _Clause(bare, tuple(named(each) for each in said), said)
@@ -283,6 +168,8 @@ def _query(clauses: Sequence[_Clause], parts: Sequence[str]) -> str:
         if words.endswith(" or"):
             return ""
         return "" if denials > 1 else _checked(names[0], is_denied=denials == 1)
+    if len(re.findall(r"\b(?:not|no) <n>", words)) == denials == len(names):
+        return _checked(every, is_denied=True)  # 'not a ring, not a disc either'
     is_enough = any(_ENOUGH.search(part) for part in (*parts, *words.split(" ; ")))
     is_either = is_enough or re.search(r"\bor\b", words) is not None
     is_either = is_either and re.search(r"\band\b", words) is None

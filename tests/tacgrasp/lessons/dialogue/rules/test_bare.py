@@ -19,6 +19,7 @@ from tacgrasp.lessons.dialogue.rules.bare import bare_query
         ),
         ("Is there more covered pad than bare pad?", "calculate area_percent > 50."),
         ("Is most of the gel still empty?", "calculate area_percent < 50."),
+        ("Does the untouched area outweigh the touched one?", "calculate area_percent < 50."),
         ("Is the pad more covered than not?", "calculate area_percent > 50."),
         ("Is the major part of the sensing face out of contact?", "calculate area_percent < 50."),
         ("Does it occupy the bigger part of the pad?", "calculate area_percent > 50."),

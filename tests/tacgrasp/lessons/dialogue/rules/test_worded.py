@@ -36,6 +36,7 @@ from tests.fakes.question_scenes import ASIDE, FREE, HELD
         ("Disc or ring, is it one of those two?", "calculate shape in ['disc', 'ring']."),
         ("Is the texture one of woven or bumpy?", "calculate texture in ['woven', 'bumpy']."),
         ("Neither dotted nor striped, then?", "calculate not (texture in ['bumpy', 'ridged'])."),
+        ("Not a ring, not a disc either, right?", "calculate not (shape in ['ring', 'disc'])."),
         ("A star or a heart?", "choice shape."),
         (
             "Is it a ring, a star or neither?",
