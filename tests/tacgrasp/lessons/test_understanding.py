@@ -37,6 +37,9 @@ def wordings_unknown_to_the_grammar(monkeypatch):
     """Every question is left to the model."""
     monkeypatch.setattr(understanding, "understand", lambda *_, **__: None)
     monkeypatch.setattr(understanding, "calculated", lambda *_: None)
+    monkeypatch.setattr(understanding, "judged_as_one", lambda *_: None)
+    monkeypatch.setattr(understanding, "clauses_of", lambda *_: None)
+    monkeypatch.setattr(understanding, "unfelt", lambda *_: None)
     monkeypatch.setattr(understanding, "QueryOdds", Odds)
 
 
