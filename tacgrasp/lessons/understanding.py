@@ -26,7 +26,7 @@ from tacgrasp.lessons.dialogue.calculations.calculated import calculated
 from tacgrasp.lessons.dialogue.calculations.suppositions import begins_supposed
 from tacgrasp.lessons.dialogue.choices.choosing import chosen
 from tacgrasp.lessons.dialogue.choices.own_words import in_its_words
-from tacgrasp.lessons.dialogue.clauses.clauses import clauses_of, judged_as_one
+from tacgrasp.lessons.dialogue.clauses.clauses import clauses_of, judged_as_one, unfelt
 from tacgrasp.lessons.dialogue.clauses.speech import asked_in_speech
 from tacgrasp.lessons.dialogue.conditions import check_of
 from tacgrasp.lessons.dialogue.families.catalogue import understand
@@ -200,7 +200,11 @@ def _by_other_words(question: str, before: str) -> ReadQuestion | None:
     if before:
         return None
     told = (understood_by_grammar(each) for each in asked_in_speech(question))
-    return next((read for read in told if read is not None), None)
+    if told_alone := next((read for read in told if read is not None), None):
+        return told_alone
+    if (meaning := unfelt(question)) is None:
+        return None
+    return ReadQuestion(query_of(meaning), meaning, CALCULATED_CONFIDENCE)
 
 
 def understood_by_model(

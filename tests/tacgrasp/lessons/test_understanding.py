@@ -36,7 +36,8 @@ class Odds:
 def wordings_unknown_to_the_grammar(monkeypatch):
     """Every question is left to the model."""
     monkeypatch.setattr(understanding, "understand", lambda *_, **__: None)
-    for reader in ("calculated", "chosen", "judged_as_one", "ruled_whole", "clauses_of"):
+    readers = ("calculated", "chosen", "judged_as_one", "ruled_whole", "clauses_of", "unfelt")
+    for reader in readers:
         monkeypatch.setattr(understanding, reader, lambda *_: None)
     monkeypatch.setattr(understanding, "asked_in_speech", lambda _: ())
     monkeypatch.setattr(understanding, "QueryOdds", Odds)

@@ -62,6 +62,11 @@ def clauses_of(question: str, read: Reader) -> Meaning | None:
         return meaning
     if _OPEN.match(question) and _is_single(item := item_of(question)):
         return item
+    return None
+
+
+def unfelt(question: str) -> Meaning | None:
+    """What a question asks that touch can't know, or that has nothing to do with it; else None."""
     query = unfelt_query(asked_text(question).words)
     return read_query(query) if query else None
 

@@ -113,7 +113,7 @@ _ITEMS = (
           r"(?:pad|sensor|gel)\b",
           f"{_PADS} area coverage footprint patch size covers covered cover touched touches "
           "occupied percent "
-          "percentage share fraction part of pressed taken up", "% mm² cm²"),
+          "percentage share fraction part of pressed taken up take takes fills spans", "% mm² cm²"),
     _item("holds", r"\b(?:hold|holds|carry|carries|lift|lifts|bear|support|hang|"
                    r"keep)\b(?=.*\b(?:g|grams?|kg|kilos?|kilograms?)\b)|"
           r"\b(?:g|grams?|kg|kilos?|kilograms?)\b.*\b(?:hold|holds|carry|carries|lift|lifts|bear|"
@@ -171,7 +171,7 @@ _REFERS = re.compile(
     r"\b(?:of|than|to|from|below|above|until|with) (?:it|that|this|them|these|those)\b", re.I
 )
 _WISHED = re.compile(r"\b(?:should|must|ought|need|needs|needed|could we)\b", re.I)
-_YES_NO = re.compile(r",? (?:yes(?:/| or )no|y/n|true or false|or not)$", re.I)
+_YES_NO = re.compile(r",? (?:yes(?:/| or )no|y(?:/| or )n|true or false|or not)$", re.I)
 
 
 def item_of(text: str) -> Part | None:

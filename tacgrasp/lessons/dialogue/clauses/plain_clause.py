@@ -21,9 +21,9 @@ _FACES = (
 )
 _SHARE = re.compile(
     r"(?<!left )(?<!right )(?<!upper )(?<!lower )(?<!top )(?<!bottom )(?<!palm )(?<!tip "
-    rf")(?<!other )\b(?P<share>{'|'.join(_SHARES)})(?: of)? (?=(?:the |this |our |its |my |"
-    r"your |that )"
-    rf"(?:\w+ ){{0,2}}{_FACES}\b)",
+    rf")(?<!other )\b(?P<share>{'|'.join(_SHARES)})(?:(?= (?:covered|touched|free|bare|"
+    r"untouched|uncovered)\b)|(?: of)? (?=(?:the |this |our |its |my |your |that )"
+    rf"(?:\w+ ){{0,2}}{_FACES}\b))",
     re.I,
 )
 _POSSESSIVE = re.compile(r"(?<=[a-z])['’]s\b(?<!it's)(?<!that's)(?<!there's)", re.I)

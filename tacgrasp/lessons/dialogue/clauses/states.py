@@ -136,6 +136,25 @@ _HALF_KNOWN = _SUBJECTS | words_of(
 )
 
 
+_UNSURE = frozenset(
+    {
+        "edge",
+        "line",
+        "corner",
+        "hole",
+        "plane",
+        "cross",
+        "dots",
+        "tiny",
+        "very large",
+        "small",
+        "medium",
+        "large",
+    }
+)
+"""Classes whose bare names mean something else too."""
+
+
 def stated(words: str, *, known: frozenset[str] = frozenset()) -> str:
     """The condition that a clause states without a number; '' of any other clause.
 
@@ -219,7 +238,7 @@ def _named(words: str, told: list[str], known: frozenset[str]) -> str:
             continue
         if len(found) > 1 and not re.search(r"\b(?:or|nor)\b", rest):
             continue
-        if not names.may_be_bare and len(rest.split()) == 0:
+        if not names.may_be_bare and not rest.split() and _UNSURE & set(found):
             continue
         found = list(dict.fromkeys(found))
         condition = " or ".join(f"{names.dimension} == '{name}'" for name in found)

@@ -50,8 +50,8 @@ _KEPT = re.compile(
     rf"(?:{_VERB} (?:{_WE}|{_IT}) )?{_STILL}(?:within|inside|in|keeping (?:to|within)|"
     r"respect(?:ed|ing)?|kept|met|meet(?:ing)?|ok|okay|fine|safe|good|alright|satisfied|obeyed|"
     r"observed|"
-    rf"compl(?:y|ying|iant)|pass(?:ing|es)?|held|sticking to|all right)(?: (?:to |with )?{_IT})?"
-    r"(?: (?:now|here|then|so far))*"
+    rf"compl(?:y|ying|iant)|pass(?:ing|es)?|held|sticking to|all right)(?: (?:to |"
+    rf"with )?{_IT})?(?: (?:now|here|then|so far))*|(?:have|are|did|do|does|is|has) {_WE}"
 )
 _BROKEN = re.compile(
     rf"(?:{_VERB} (?:{_WE}|{_IT}) )?{_STILL}(?:violat(?:ed|ing)|broken|breach(?:ed|ing)?|"
@@ -60,6 +60,7 @@ _BROKEN = re.compile(
 )
 _REACHED = re.compile(
     rf"(?:{_VERB} (?:{_WE}|{_IT}) )?{_STILL}(?:reach(?:ed|ing)?|hit|there|at|got to|"
+    r"got(?= (?:that much|it|that))|"
     rf"made)(?: {_IT})?"
     r"(?: (?:now|already|yet))*"
 )
@@ -78,7 +79,7 @@ _SLIPS = re.compile(
 _WEIGHS = re.compile(
     r"(?:(?:it|this|that|(?:the|this|that|my|our) (?:\w+ )?\w+)(?: (?:here|"
     r"one))? (?:weighs?(?: in)?|has a (?:mass|weight) of|is|comes (?:to|in)|brings)(?: (?:in at|at|"
-    r"about|to|on the scale))*|(?:the|its) (?:mass|weight)(?: of \w+(?: \w+)?)? is|mass|"
+    r"about|to|on the scale))*|(?:(?:the|its) )?(?:mass|weight)(?: of \w+(?: \w+)?)? is|mass|"
     r"weight) #(?P<n>\d+) (?P<unit>g|grams?|kg|kilos?|kilograms?)(?: heavy)?|"
     r"#(?P<n2>\d+) (?P<unit2>g|grams?|kg|kilos?|kilograms?)(?: \w+)?"
 )

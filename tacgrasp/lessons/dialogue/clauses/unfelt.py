@@ -24,7 +24,7 @@ _TOUCH = re.compile(
     r"milli\w+|percent|grams?|g|kg|kilos?|center\w*|middle|indent\w*|patch|footprint|offset|"
     r"rough\w*|smooth\w*|ridged|bumpy|woven|x|y|tight\w*|loose\w*|sensor|fingertip|palm|weigh\w*|"
     r"mass|heav\w+|touch\w*|covered|coverage|lift\w*|carry|drop\w*|safe(?:ly)?|crush\w*|bruis\w+|"
-    r"harder|softer)\b"
+    r"harder|softer|grip\w*|hold\w*|held|how (?:hard|firm\w*|strong\w*))\b"
 )
 _GRIPPED = re.compile(
     r" (?:(?:that )?(?:you|we) (?:are |have )?(?:gripping|holding|got|hold|grip|have)(?: there|"

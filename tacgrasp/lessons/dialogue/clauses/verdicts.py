@@ -46,8 +46,9 @@ _TAIL = re.compile(
     r"am i (?:right|correct)(?: (?:there|about that|in that|in thinking so))?|(?:do|would|"
     r"can)(?:n['’]t)? you (?:agree|say|confirm(?: (?:it|that|this))?|concur|say so|sign (?:it|"
     r"that))|(?:do|does|can|could|may|shall) (?:i|we) (?:tick|sign)(?: (?:it|that|both|off|"
-    r"the box))*|agreed?|confirm(?:ed)?|yes(?: or no|, no)?|y/n|no\b|correct me if i am wrong|"
-    r"(?:is )?that (?:about )?right|deal|check|got it|tick(?: or cross)?|yay or nay|yea or nay"
+    r"the box))*|agreed?|confirm(?:ed)?|or (?:not|what|no)|yes(?: or no|, no)?|y/n|no\b|"
+    r"correct me if i am wrong|(?:is )?that (?:about )?right|deal|check|got it|tick(?: or cross)?|"
+    r"yay or nay|yea or nay"
     r")(?: (?:here|now|then|please|for (?:me|us|this)|at (?:the moment|present)))*[\s?.!]*$",
     re.I,
 )
@@ -106,6 +107,12 @@ _HEADS = (
     r"(?:would|can|could) (?:you|one|we|i) (?:say|agree|claim|call it|confirm|sign off)(?: that)? ",
     r"(?:is it|would it be) (?:true|right|correct|fair|accurate|safe|the case|"
     r"so)(?: to say)?(?: that|(?<=say))? ",
+    r"(?:does|do|would) (?:it|this|that|we|the \w+) (?:tick|meet|satisfy|fulfil|pass) (?:all|both|"
+    r"every|each)(?: of)?"
+    r"(?: (?:the|these|my|our|those))?(?: \w+)?[:,] ",
+    r"(?:both|all|these|two|three)(?: (?:conditions|things|points|criteria|of these|"
+    r"of them))? (?:have to|must|should|"
+    r"need to|are to) (?:be |all |both )*(?:true|hold|met|right|satisfied|fulfilled|given)[:,.] ",
     r"(?:does|would) it (?:hold|follow|apply|stand)(?: true)? that ",
     r"(?:we|i|you|it|this|a \w+|the \w+) (?:only )?(?:pass(?:es)?|qualif(?:y|ies)|counts?|"
     r"go(?:es)?|lifts?|accepts?|(?:is|are) (?:accepted|good|ok|okay|fine|ready|cleared|safe|"
@@ -147,6 +154,13 @@ _NEEDED = re.compile(
 )
 _SENTENCE = re.compile(r"[.?!] +[A-Za-z]")
 _DENIAL = re.compile(r"(?<=\w)(?<!ca)(?<!wo)n['’]?t\b", re.I)
+_BEGINS = re.compile(r"^(we|you|they|it|that|this)['’](re|s|ve)\b", re.I)
+_WHOLE = {"re": "are", "s": "is", "ve": "have"}
+_ONLY_ONE = re.compile(
+    r"\b(?:(?:exactly|only|at most|just) one\b(?! (?:newton|milli|gram|kilo|percent|mm|n|g))|"
+    r"not both)",
+    re.I,
+)
 _OFFERED = re.compile(r"== '[\w -]+' or ")
 _OFFERS = re.compile(r"\w+,? (?:or|and) (?!more\b|less\b|above\b|over\b|below\b|under\b)", re.I)
 _EITHER = re.compile(r"\b(?:either|neither|nor|one of|any of|whichever|and)\b", re.I)
@@ -157,6 +171,7 @@ def judged(question: str) -> Calculated | None:
     text = " ".join(question.split())
     if is_denied_first(text):  # it expects 'yes'
         text = _DENIAL.sub("", text, count=1)
+    text = _BEGINS.sub(lambda found: f"{found[1]} {_WHOLE[found[2].lower()]}", text)
     core, denied = _without_tag(text)
     if core == text:
         core, denied = _without_tail(text)
@@ -174,7 +189,7 @@ def judged(question: str) -> Calculated | None:
         return None
     if not is_framed and not (_VERB_FIRST.match(core) or text.rstrip().endswith("?")):
         return None
-    if _SENTENCE.search(core):
+    if _SENTENCE.search(core) or _ONLY_ONE.search(text):
         return None
     condition = condition_of_statement(core, is_any=_ANY_OF.search(text) is not None)
     offers = _OFFERED.search(condition) is not None or _OFFERS.search(core) is not None
@@ -188,6 +203,8 @@ def _without_tag(text: str) -> tuple[str, bool]:
     found = _TAG.search(text)
     if found is None or _VERB_FIRST.match(text) or len(text[: found.start()].split()) < 2:
         return text, False
+    if text[: found.start()].endswith((".", "!")):  # a question of its own
+        return text[: found.start()], False
     is_denied = found["denied"] is not None or found["not"] is not None
     stated = text[: found.start()]
     if re.search(r"\b(?:we|you|i|it|they|this|that|not)$", stated, re.I):  # 'do we have that'

@@ -19,11 +19,11 @@ FILLERS = words_of(
     "now still already presently present momentary actual actually really just yet even also then "
     "so moment overall any some all one robot gripper finger fingers jaw jaws hand hands machine "
     "arm object thing item part piece workpiece sample specimen load berry fruit touch indeed "
-    "please ever who total exactly today time least only together s t ok okay surely truly "
-    "certainly clearly definitely get gets got getting going go goes gone come comes came let make "
-    "makes made making keep keeps kept keeping stay stays stayed staying remain remains remained "
-    "lie lies lying lay sit sits sitting stand stands standing run runs running into onto like up "
-    "out using use used seem seems appear appears end ends big deal"
+    "please ever who total today time least only together s t ok okay surely truly certainly "
+    "clearly definitely get gets got getting going go goes gone come comes came let make makes "
+    "made making keep keeps kept keeping stay stays stayed staying remain remains remained lie "
+    "lies lying lay sit sits sitting stand stands standing run runs running into onto like up out "
+    "using use used seem seems appear appears end ends big deal"
 )
 """Words that change nothing in a clause whose marks are there."""
 
