@@ -72,7 +72,7 @@ _FIRST_UNIT = re.compile(
     r"(?: of (?:force|grip|squeeze|travel|indentation|depth|gel travel|load))? "
     r"(?=(?:left|short|needed|required|missing|lacking|to|remaining|over|above|below|under|"
     r"until|till|before|from|between|in (?:hand|reserve)|up to|still|available|i|we|you|"
-    r"spare|away|shy|past|beyond|surely|safely|certainly|held|guaranteed|across)\b)"
+    r"spare|away|shy|past|beyond|surely|safely|certainly|held|guaranteed)\b)"
 )
 """A unit that begins a question without 'how many': 'mm of travel left'."""
 

@@ -78,13 +78,12 @@ _MORE_OF = re.compile(
     rf"(?: (?:of )?(?:(?:the|my|our) )?(?P<a>{_GRIP}))?"
 )
 _ANOTHER = re.compile(
-    rf"{_WITH}(?:plus|another|(?:an? )?(?:extra|additional|further)) (?P<b>#\d+ \w+)(?: (?:of )?"
+    rf"{_WITH}(?:another|(?:an? )?(?:extra|additional|further)) (?P<b>#\d+ \w+)(?: (?:of )?"
     rf"(?:(?:the|my|our) )?(?P<a>{_GRIP}))?"
 )
 _AT_TIMES = re.compile(
-    rf"(?:(?:the|our|my) (?:force|grip|squeeze) )?{_WITH}(?P<n>half|twice|double|two times|thrice|triple|three times|four times|quadruple) "
-    rf"(?:as (?:much|hard|firm|strong)|(?:its|the|our) (?:present|current|felt) (?:value|level|"
-    rf"size|strength)|(?:the|our|my|this|that) (?:(?:present|current|same) )?"
+    rf"{_WITH}(?P<n>half|twice|double|two times|thrice|triple|three times|four times|quadruple) "
+    rf"(?:as (?:much|hard|firm|strong)|(?:the|our|my|this|that) (?:(?:present|current|same) )?"
     rf"(?P<a>{_GRIP}))(?: .{{0,12}}now)?"
 )
 _CHANGES = tuple(
@@ -104,7 +103,7 @@ _CHANGES = tuple(
         ("-", rf"{_WHO} {_LOWERED} (?P<a>.+?) by (?P<b>.+)"),
         (
             "=",
-            rf"{_WHO} (?:set|brought|bring|take|took|put|push|pushed|ran|run|{_RAISED}|{_LOWERED}) (?P<a>.+?)(?: up| down| back)? to (?P<b>.+)",
+            rf"{_WHO} (?:set|brought|bring|take|took|{_RAISED}|{_LOWERED}) (?P<a>.+?) to (?P<b>.+)",
         ),
         (
             "+",
@@ -146,7 +145,7 @@ _PRESSED = re.compile(
     r"(?P<less>softer|less|lighter|gentler|shallower))"
 )
 _OFF = re.compile(
-    rf"minus (?P<less>#\d+ \w+)|(?:{_WHO} )?(?:take|took|taking|knock|knocked|shave|shaved|trim|trimmed|let|pull|pulled|"
+    rf"(?:{_WHO} )?(?:take|took|taking|knock|knocked|shave|shaved|trim|trimmed|let|pull|pulled|"
     r"lift|lifted|drop|dropped) (?P<b>#\d+ \w+)(?: of (?:force|grip|squeeze))? (?:off|away)(?: it)?"
 )
 _GRIPPED_TIMES = re.compile(
@@ -259,8 +258,7 @@ def _gripped(asked: AskedWords, change: str) -> Term | None:
     for pattern in (_PRESSED, _OFF, _EASED, _ON_TOP, _ADDED):
         if (found := pattern.fullmatch(change)) is None:
             continue
-        named = found["b"] or found["less"]
-        by = _share_of_itself(named) or asked.term(named)
+        by = _share_of_itself(found["b"]) or asked.term(found["b"])
         if by is not None and by.unit == "%":
             is_less = pattern in (_OFF, _EASED) or bool(found.groupdict().get("less"))
             return _by(usual("force"), "-" if is_less else "+", by)

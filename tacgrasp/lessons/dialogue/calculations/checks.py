@@ -26,7 +26,7 @@ _BE = (
     r"(?:(?:be|is|are|am|was|were|lie|lies|lying|sit|sits|sitting|land|landing|stay|stays|staying|"
     r"stand|stands|come out|end up|ending up|come|coming|remain|remains|remaining|get|getting|go|"
     r"going|fall|falls|falling|drop|dropping|keep|keeping|"
-    rf"got|using|{MOVES})(?: (?:back|at|up|down))?|at)"
+    rf"got|{MOVES})(?: (?:back|at|up|down))?|at)"
 )
 _COMPARED = tuple(
     (sign, re.compile(rf"(?P<a>.+?)(?: {_ADVERB})*(?: {_BE})?(?: {_ADVERB})* (?:{said}) (?P<b>.+)"))
@@ -127,8 +127,7 @@ _AFFORDED = re.compile(
 )
 _ROOM = re.compile(
     r"(?:there|we|i|you|it)(?: (?:still|be|is|have|has|got|any|enough|left))* "
-    r"(?:room|space|headroom|slack|margin|leeway)(?: left)? "
-    r"(?:for|to (?:add|tighten by|squeeze|press|go up|increase by|put on)) (?:another |an extra )?"
+    r"(?:room|space|headroom|slack|margin|leeway)(?: left)? for (?:another |an extra )?"
     r"(?P<b>#\d+ \w+)(?: (?:more|extra|further|of (?:force|grip)|on top))*"
     r"(?: (?:before|below|under|to|until|up to|beneath) (?:we (?:hit|reach) )?(?:the )?(?:limit|"
     r"cap|ceiling))?"

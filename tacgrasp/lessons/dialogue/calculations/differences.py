@@ -39,7 +39,7 @@ _FURTHER = re.compile(
     r"bottoms? out at)) (?P<b>.+)"
 )
 _UNTIL = re.compile(
-    r"how much(?: (?:more|further|deeper|extra|grip|force|squeeze|is there|are there|to go|do we have|have we|"
+    r"how much(?: (?:more|further|deeper|extra|grip|force|squeeze|is there|do we have|have we|"
     r"left|to go))*(?: (?:can|could|may|might) (?:we|you|i|it) \w+)? (?:until|till|to|before|"
     r"up to) "
     r"(?:(?:we|you|it|i|the \w+) (?:reach|hit|are(?: at)?|is(?: at)?|get to|reaches|reached|hits|"

@@ -59,7 +59,7 @@ _FILL = (
     r"number|gripper|fingers|finger|jaws|robot|hand|touch|state|present|current|currently|now|"
     r"tell|me|give|get|got|gets|able|possible|rule|thumb|really|actually|exactly|reckon|"
     r"think|say|expect|expected|allow|am|as|if|absolute|absolutely|hundred|percent|all|put|place|"
-    r"applied|apply|added|add|us|buy|buys|earn|earns|something|anything|stuff|steady|still|"
+    r"us|buy|buys|earn|earns|something|anything|stuff|steady|still|"
     r"each|every|per|theory|principle|practice|here|together|using|based|think|go|come|comes)"
 )
 _EXPLAINED = re.compile(r" (?:i e|that is to say|meaning|defined as|in other words) .+$")

@@ -23,8 +23,6 @@ _FULL = (
     r"press|load|clamp|force|dent)|full|"
     r"(?:the )?(?:maximum|max|limit|end|end stop|bottom|deepest|most|whole (?:of it|thing)|lot)"
     r"(?: (?:of (?:the )?(?:travel|range|scale|stroke)|possible|there is|it can (?:take|do|go)))?|"
-    r"the (?:deepest|largest|greatest|hardest|most)(?: possible)? (?:dent|press|indentation|"
-    r"squeeze|grip|force|depth)(?: possible)?|"
     r"all (?:(?:that )?(?:the (?:gel|pad)|it|we|there) (?:has|have|can|is)(?: got)?(?: to)?(?: "
     r"(?:give|take|offer|do|go))?)|"
     r"(?:#\d+|one hundred|a hundred) percent|bottoming out|bottomed out|all the way(?: in| down)?|"
@@ -32,7 +30,7 @@ _FULL = (
 )
 _PLACE = r"(?:the |this |that |our )?(?:gel|pad|skin|jelly|rubber|elastomer|sensor|cushion|it|dent|"
 _WHOLE = (
-    rf"{_PLACE}indentation|depth|travel|range|scale|stroke|gauge|dial|meter|gel limit)"
+    rf"{_PLACE}indentation|depth|travel|range|scale|stroke|gauge|dial|meter)"
     r"(?: (?:travel|range|scale|stroke|depth|indentation))?"
 )
 _CAN = (
@@ -58,15 +56,15 @@ _STATED = tuple(
         rf"called) {_FULL}",
         rf"{_FULL}(?: (?:is|are|was|were|means|being|comes|at|of|to|equals|"
         rf"amounts|reached|lies|sits))+ (?P<w>#\d+ (?:{UNIT})){_BEHIND}",
-        rf"(?:{_WHOLE} {_CAN}|(?:the )?(?:gel|pad) limit (?:is |of |at )?)(?P<w>#\d+ (?:{UNIT})){_BEHIND}",
-        rf"(?:the |a |our )?(?P<w>(?:scale|range|span|interval) (?:(?:of|from|runs from|goes from|is|spans|running from|"
+        rf"{_WHOLE} {_CAN}(?P<w>#\d+ (?:{UNIT})){_BEHIND}",
+        rf"(?:the |a |our )?(?P<w>(?:scale|range|span|interval) (?:(?:of|from|running from|"
         rf"going from) )?#\d+(?: (?:{UNIT}))? (?:(?:to|through|up to) )?(?:#\d+ (?:{UNIT})|"
         r"the \w+))(?: as (?:a|the) whole)?",
         rf"(?:the |a |our )?(?P<w>#\d+(?: (?:{UNIT}))? (?:to )?#\d+ (?:{UNIT}) "
         r"(?:scale|range|span))",
         rf"(?:the |a |our |its |total |available |full |maximum )*(?P<w>#\d+ (?:{UNIT}))(?: of)? "
         r"(?:(?:gel|indentation|depth|force|full|maximum|available|total|of) )*"
-        r"(?:travel|scale|range|stroke|budget|allowance)(?: available)?",
+        r"(?:travel|scale|range|stroke)(?: available)?",
         rf"(?:the |a |our )?(?P<w>#\d+ (?:{UNIT}))(?: deep| thick)? (?:gel|limit|maximum|max)\b",
         rf"(?:call|take|treat|count|consider|regard) (?P<w>#\d+ (?:{UNIT}))(?: as)? {_FULL}",
         rf"(?:we|you|i|it) (?:are|were|is|am) (?:allowed|permitted) (?:to (?:go|press|sink) )?"
@@ -96,7 +94,7 @@ _ASKING = (
     r"work|works|by|as|its|our|my|would|will|tell|me|give|full|whole|entire|scale|range|travel|"
     r"stroke|span|total|maximum|max|possible|gel|pad|felt|current|measured|far|"
     r"object|thing|contact|reading|value|figure|said|press|pressed|pressing|gone|could|can|where|"
-    r"deeper|harder|one|them|wise|along|"
+    r"deeper|harder|them|wise|along|"
     r"further|more|expressed|before|until|till|bottoming|bottom|bottoms|hit|hits|hitting|end|"
     r"stop|room|sunk|sinks|sink)"
 )

@@ -110,7 +110,7 @@ _MASS_OF = re.compile(
 """A mass with whatever has it: 'a 20 g nut'."""
 
 _SCALE = re.compile(
-    rf"(?:scale|range|span|interval) (?:(?:of|from|runs from|goes from|is|spans|running from|going from) )?(?P<low>#\d+)"
+    rf"(?:scale|range|span|interval) (?:(?:of|from|running from|going from) )?(?P<low>#\d+)"
     rf"(?: (?:{UNIT}))? (?:to |through |up to )?(?P<high>.+)|"
     rf"(?P<first>#\d+)(?: (?:{UNIT}))? (?:to )?(?P<last>#\d+ (?:{UNIT})) (?:scale|range|span)"
 )
