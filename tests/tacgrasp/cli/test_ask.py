@@ -103,9 +103,9 @@ class Typed(io.StringIO):
 def test_a_question_is_read_in_plain_words_and_answered_on_what_is_felt(
     talker: Writer, touch: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert main(["ask", touch, "How deep's it, please?"]) == 0
+    assert main(["ask", touch, "How zorby's it, please?"]) == 0
     assert capsys.readouterr().out == "0.19 mm.\n"
-    assert talker.prompts == ["how deep's it"]
+    assert talker.prompts == ["how zorby's it"]
 
 
 def test_a_frame_is_read_beside_the_frame_of_its_untouched_gel(
@@ -228,7 +228,7 @@ def test_lines_of_input_are_answered_by_a_line_each(
     capsys: pytest.CaptureFixture[str],
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr("sys.stdin", Typed("How deep is it?\n\nHow hard?\n", terminal=False))
+    monkeypatch.setattr("sys.stdin", Typed("How deep is it?\n\nHow zorby?\n", terminal=False))
     assert main(["ask", touch, "--json"]) == 0
     lines = capsys.readouterr().out.splitlines()
     first, blank, last = map(json.loads, lines)
@@ -255,7 +255,7 @@ def test_a_line_that_cannot_be_answered_is_told_in_its_place(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     for flags in ([], ["--json"]):
-        lines = "How deep is it?\nHallo Welt\nHow hard?\n"
+        lines = "How deep is it?\nHallo Welt\nHow zorby?\n"
         monkeypatch.setattr("sys.stdin", Typed(lines, terminal=False))
         assert main(["ask", touch, *flags]) == 2
         printed = capsys.readouterr()
