@@ -46,7 +46,7 @@ _TAIL = re.compile(
     r"am i (?:right|correct)(?: (?:there|about that|in that|in thinking so))?|(?:do|would|"
     r"can)(?:n['’]t)? you (?:agree|say|confirm(?: (?:it|that|this))?|concur|say so|sign (?:it|"
     r"that))|(?:do|does|can|could|may|shall) (?:i|we) (?:tick|sign)(?: (?:it|that|both|off|"
-    r"the box))*|agreed?|confirm(?:ed)?|or (?:not|what|no)|yes(?: or no|, no)?|y/n|no\b|"
+    r"the box))*|agreed?|confirm(?:ed)?|or not|yes(?: or no|, no)?|y/n|no\b|"
     r"correct me if i am wrong|(?:is )?that (?:about )?right|deal|check|got it|tick(?: or cross)?|"
     r"yay or nay|yea or nay"
     r")(?: (?:here|now|then|please|for (?:me|us|this)|at (?:the moment|present)))*[\s?.!]*$",
