@@ -231,11 +231,10 @@ def test_random_changes_of_a_character_are_refused_or_say_something_else() -> No
     assert refused > 700
 
 
-def test_thousands_of_replies_by_chance_all_keep_the_grammar(words: Words) -> None:
+def test_ten_thousand_replies_by_chance_all_keep_the_grammar(words: Words) -> None:
     tokens = TextTokens(words.encode)
-    num_replies = 1000 if len(words) < 1000 else 5000  # most with the shipped words
     named, barred_named, doubts, intervals = set(), set(), 0, 0
-    for seed in range(num_replies):
+    for seed in range(5000):
         sensor = list(SENSORS.values())[seed % 4]
         band = Band(low=0.1 + seed % 50 / 100, high=1.0 + seed % 70 / 100)
         barred = ACTIONS[: seed % 8] if seed % 3 == 0 else ()
@@ -260,8 +259,8 @@ def test_thousands_of_replies_by_chance_all_keep_the_grammar(words: Words) -> No
             assert parsed.advice.reason is Reason.NO_CONTACT
     assert named == set(ACTIONS)
     assert not barred_named
-    assert doubts > num_replies / 10
-    assert intervals > num_replies / 10
+    assert doubts > 500
+    assert intervals > 500
 
 
 def test_given_numbers_are_said_as_they_are_where_the_sensor_s_range_has_them(words: Words) -> None:
