@@ -238,15 +238,16 @@ def test_a_reference_of_another_light_or_a_moving_picture_is_refused_and_the_old
     still = camera.next_frame
 
     def moving():
-        camera.picture = pressed(0.5, x_mm=(camera.frames % 6) - 3.0)
-        return still()
+        still()
+        return pressed(0.5, x_mm=(camera.frames % 6) - 3.0)
 
     monkeypatch.setattr(camera, "next_frame", moving)
     with pytest.raises(TouchError, match="of the picture changed"):
         sensor.take_reference()
     monkeypatch.setattr(camera, "next_frame", still)
     camera.picture = DRIFTED
-    time.sleep(0.05)
+    begun = camera.frames
+    poll(lambda: camera.frames > begun + 3)
     assert np.abs(sensor.read().points_mm[:, 2]).max() < 0.03
 
 
