@@ -86,6 +86,24 @@ def literal_words(text: str) -> tuple[str, ...]:
 
 Node = Literal | NumberSlot | ListSlot | Chain | OneOf | Bound
 
+_MADE: dict[tuple[object, ...], Node] = {}
+
+
+def _literal(text: str) -> Node:
+    return _MADE.setdefault((Literal, text), Literal(text))
+
+
+def _chain(parts: Sequence[Node]) -> Node:
+    """The one chain of these parts: what patterns have in common is one object, and read once."""
+    if len(parts) == 1:
+        return parts[0]
+    return _MADE.setdefault((Chain, *map(id, parts)), Chain(tuple(parts)))
+
+
+def _one_of(parts: Sequence[Node], *, optional: bool = False) -> Node:
+    return _MADE.setdefault((OneOf, optional, *map(id, parts)), OneOf(tuple(parts), optional))
+
+
 _SYNTAX = re.compile(r"\(|\)|\[|\]|\||\{[#*]?\w+\}|[^\s()\[\]{}|]+")
 
 
@@ -173,23 +191,23 @@ class _Compiler:
             token = tokens[at]
             at += 1
             if token == "|":
-                choices.append(Chain(tuple(parts)))
+                choices.append(_chain(parts))
                 parts = []
             elif token in ("(", "["):
                 inner, at = self._choice(tokens, at)
                 if at >= len(tokens) or tokens[at] != {"(": ")", "[": "]"}[token]:
                     raise ValueError(f"a {token!r} is not closed in {' '.join(tokens)[:60]!r}")
                 at += 1
-                parts.append(OneOf((inner,), optional=True) if token == "[" else inner)
+                parts.append(_one_of((inner,), optional=True) if token == "[" else inner)
             else:
                 parts.append(self.leaf(token))
-        choices.append(Chain(tuple(parts)))
-        return (choices[0] if len(choices) == 1 else OneOf(tuple(choices))), at
+        choices.append(_chain(parts))
+        return (choices[0] if len(choices) == 1 else _one_of(choices)), at
 
     def leaf(self, token: str) -> Node:
         """What one token stands for."""
         if not token.startswith("{"):
-            return Literal(token)
+            return _literal(token)
         name = token[1:-1]
         if name.startswith("#"):
             return NumberSlot(name[1:])

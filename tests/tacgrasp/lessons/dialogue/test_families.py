@@ -24,13 +24,16 @@ RANDOM = [
 ]
 
 
+MANY = [scene.values() for scene in (*SCENES, *RANDOM)]
+
+
 def is_same(one, other):
     """Whether two truths have the same values in many scenes."""
     sides = [[Expression(part) for part in text.split(";") if part] for text in (one, other)]
     return all(
-        [each.evaluate(scene.values()).value for each in sides[0]]
-        == [each.evaluate(scene.values()).value for each in sides[1]]
-        for scene in (*SCENES, *RANDOM)
+        [each.evaluate(values).value for each in sides[0]]
+        == [each.evaluate(values).value for each in sides[1]]
+        for values in MANY
     )
 
 

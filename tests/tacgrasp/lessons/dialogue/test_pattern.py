@@ -131,7 +131,13 @@ def test_a_slot_that_needs_one_of_the_patterns_own_is_not_shared():
     assert read(own, "x w z") is not None
     assert read(own, "x y z") is None
     other = compile_pattern("{c}", {}, {}, shared)
-    assert other.parts[0] is own.parts[1]
+    assert other is own.parts[1]
+
+
+def test_what_patterns_have_in_common_is_one_part():
+    one, other = node("x (a|[b] c)"), node("y (a|[b] c)")
+    assert one.parts[1] is other.parts[1]
+    assert one.parts[0] is not other.parts[0]
 
 
 @pytest.mark.parametrize(
