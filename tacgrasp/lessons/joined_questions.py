@@ -14,6 +14,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 
+from tacgrasp.lessons.dialogue.choices.named import either_named
 from tacgrasp.lessons.dialogue.conditions import check_of
 from tacgrasp.lessons.dialogue.families.catalogue import understand
 from tacgrasp.lessons.dialogue.meaning import (
@@ -219,7 +220,7 @@ def either_of(question: str) -> Meaning | None:
     if _EITHER.search(question) is None:
         return None
     parts = _either(_EITHER.sub("", question), of_one_kind=True)
-    return together(parts) if parts else None
+    return together(parts) if parts else either_named(question)
 
 
 def _either(question: str, *, of_one_kind: bool = False) -> tuple[Check, ...]:

@@ -185,6 +185,8 @@ def _chosen(word: str, clauses: list[str], choices: Sequence[str]) -> str:
     told = ", ".join([*clauses[:-2], " and ".join(clauses[-2:])])
     if not told or re.search(rf"\b(?:{others})\b", told, re.I):
         return f"{capital(word)}."
+    if re.search(rf"\b(?:is|an?) {re.escape(word)}\b", told):
+        return f"{capital(told)}."
     return f"{capital(word)}: {told}."
 
 

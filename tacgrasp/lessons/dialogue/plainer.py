@@ -45,6 +45,7 @@ _CONTRACTED = (
     (re.compile(r"\b(it|that|there|this|here)['’]s\b", re.I), r"\1 is"),
     (re.compile(r"\b(we|they|you)['’]re\b", re.I), r"\1 are"),
     (re.compile(r"\b(i|we|they|you)['’]ve\b", re.I), r"\1 have"),
+    (re.compile(r"\bi['’]m\b", re.I), "I am"),
 )
 _STATED = re.compile(
     rf"(?P<subject>(?:[\w'’-]+ ){{1,7}}?)(?P<verb>{AUXILIARY}) (?P<rest>.+)", re.I | re.S
@@ -101,6 +102,14 @@ _ADDED = re.compile(
     r"\bboth (?=\w+ and (?!\w+ (?:in|is|are)\b))|\beither (?=.* or )|\ball (?=in \w+\W*$)",
     re.I,
 )
+_ROUNDED = re.compile(
+    r",?(?: rounded(?: off)?)? to the (?:next|nearest) (?:(?:whole|full|half|quarter|tenth|"
+    r"hundredth|thousandth|one|two|five|ten|hundred|\d+(?:\.\d+)?)(?: of an?)?\b ?)*"
+    r"(?P<unit>newtons?\b|n\b|mm\b|millimet(?:re|er)s?\b|microns?\b|micromet(?:re|er)s?\b|[µu]m\b|"
+    r"grams?\b|g\b|per ?cent\b|%)?",
+    re.I,
+)
+_IN_UNIT = re.compile(r"\bin [a-zµ²%]+\b|\bhow many\b", re.I)
 _NUMBER = r"(?<![\d.,])(\d+(?:\.\d+)?)"
 _FOREIGN = (
     (r"(?:pounds?|lbs?|lbf)(?:[ -](?:of )?force)?\b", 453.59237, "grams"),
@@ -144,6 +153,10 @@ def plainer(question: str) -> str:
     if opening := _ADDRESS.match(text):
         text = text[opening.end() :]
     text = _ADDED.sub("", _POLITE_VERB.sub("", text, count=1))
+    if rounded := _ROUNDED.search(text):
+        rest = f"{text[: rounded.start()]}{text[rounded.end() :]}"
+        unit = rounded["unit"] if not _IN_UNIT.search(rest) else None
+        text = rounded.re.sub(f" in {unit}" if unit else "", text, count=1)
     if (right := _RIGHT.search(text)) and not _DENIED.search(text) and not _NEGATIVE.search(text):
         text = f"{text[: right.start()]}, is it?"
     text = _PURPOSE.sub("", _POLITE.sub("give me ", _THANKS.sub("", text), count=1))

@@ -23,6 +23,24 @@ class Refusing:
     [
         ("What percentage of 2 mm is the depth?", "calculate 100 * depth_mm / 2 in %."),
         ("If the force doubled, would it exceed the limit?", "calculate 2 * force_n > limit_n."),
+        (
+            "Were another 2 N added, would the limit be breached?",
+            "calculate force_n + 2 > limit_n.",
+        ),
+        (
+            "Should the force rise by 1 N, would it pass the limit?",
+            "calculate force_n + 1 > limit_n.",
+        ),
+        (
+            "Had we 1 N more, would we be within the band?",
+            "calculate band_low_n <= (force_n + 1) <= band_high_n.",
+        ),
+        ("Would holding 250 g require more than the limit?", "calculate gram_n * 250 > limit_n."),
+        ("Will lifting 50 g take less than the limit?", "calculate gram_n * 50 < limit_n."),
+        (
+            "Does the imprint belong to either a triangle or a hexagon?",
+            "calculate shape == 'triangle' or shape == 'hexagon'.",
+        ),
     ],
 )
 def test_what_calculates_is_read_with_some_doubt(question, query):
@@ -35,6 +53,15 @@ def test_what_calculates_is_read_with_some_doubt(question, query):
     ("question", "query"),
     [
         ("Should I squeeze more?", "check force below."),
+        ("y in cm", "amount y cm."),
+        ("Lateral offset x, in micrometres?", "amount x µm."),
+        ("How far off sideways in mm, left counted as positive?", "amount leftward mm."),
+        ("How many µm is it off vertically, down is positive?", "amount tipward µm."),
+        ("Vertical distance from the middle, never mind the sign", "amount offset_y mm."),
+        (
+            "To be centred, by how many mm must it be moved sideways (positive = to the right)?",
+            "amount leftward mm.",
+        ),
         ("Is it a strawberry?", "unknown name."),
         ("How warm is it?", "unknown temperature."),
         ("Is it round?", "check shape sphere."),

@@ -186,6 +186,20 @@ def sure_to_hold(asked: AskedWords) -> Calculated | None:
     return None
 
 
+def needs_more(asked: AskedWords) -> Calculated | None:
+    """Whether a load needs more, or less, force than a bound; None of other questions."""
+    found = _NEEDS_MORE.fullmatch(asked.words)
+    bound = asked.term(found["bound"]) if found else None
+    if found is None or bound is None or bound.dimension != "force":
+        return None
+    for mass, rest in _with_term(asked, found["load"], "mass", _BEFORE_MASS):
+        if is_made_of(rest, rf"(?:{_FILL}|{_HOLD}|{_LOAD})"):
+            sign = ">" if found["sign"] == "more" else "<"
+            truth = f"gram_n * {mass.factor} {sign} {bound.factor}"
+            return Calculated(truth=truth, unit=None)
+    return None
+
+
 def _holds_it(asked: AskedWords, mass: Term) -> Calculated | None:
     """Whether the felt force surely holds a supposed mass."""
     used = rf"(?:{_FILL}|{_SURE}|{_HOLD}|{_LOAD}|{_FORCE}|{THING})"
@@ -198,6 +212,10 @@ def _holds_it(asked: AskedWords, mass: Term) -> Calculated | None:
     return Calculated(truth=f"force_n >= gram_n * {mass.factor}", unit=None)
 
 
+_NEEDS_MORE = re.compile(
+    r"(?P<load>(?:would|will|does|do) .+?) (?:need|require|take|demand|call for|ask for) "
+    r"(?P<sign>more|less) (?:force |grip |newtons )?than (?P<bound>.+?)(?: allows| permits)?"
+)
 _ASKS_SO = re.compile(r"(?:is|are|am|would|will|could|can|does|do|has|have|should)\b")
 
 

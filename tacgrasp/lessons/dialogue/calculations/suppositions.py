@@ -27,8 +27,8 @@ from tacgrasp.lessons.dialogue.meaning import Calculated
 from tacgrasp.lessons.dialogue.scene import NAMES
 
 _SUPPOSED = re.compile(
-    r"(?:(?:what )?(?:if|suppose|supposing|imagine|assume|assuming|say|were|with|after|once|when|"
-    r"let us say|picture|pretend|given|at|by)(?: that)? )?(?P<all>.+)"
+    r"(?:(?:what )?(?:if|suppose|supposing|imagine|assume|assuming|say|were|should|had|"
+    r"with|after|once|when|let us say|picture|pretend|given|at|by)(?: that)? )?(?P<all>.+)"
 )
 _QUESTION = re.compile(
     r" (?:(?:then|so|now|and) )*(?:(?:tell|give|show) (?:me|us) )?(?=(?:what|how|would|will|could|"
@@ -92,6 +92,14 @@ _SUBJECT = re.compile(
 )
 """What a pronoun before or behind stands for: 'what would the force be if it rose'."""
 
+_EXCEEDED = re.compile(
+    r"(?:would|will|is|has|does|could|might) (?:the |our )?(?P<bound>limit|ceiling|maximum) "
+    r"(?:(?:be|been|get|being) )*(?:breached|exceeded|violated|passed|broken|overshot|crossed|"
+    r"surpassed|overstepped)"
+)
+_HAVING = re.compile(
+    r"^(?:(?:we|i|you|it) )?(?:(?:had|have|got) )?(?=#\d+ \w+ (?:more|less|extra)$)"
+)
 _THEN = re.compile(r"^(?:(?:then|so|and|now) )+| (?:then|afterwards|after that)$")
 _MEASURED = {"deep": "length", "heavy": "mass", "strong": "force", "hard": "force"}
 _HOW = re.compile(rf"how ({'|'.join(_MEASURED)})\b")
@@ -135,8 +143,8 @@ def supposed(asked: AskedWords) -> Calculated | None:
         if (told := changed(before, change)) is None:
             continue
         base = _base(asked, told)
-        after = asked.about(told, rest, base)
-        rest = _THEN.sub("", rest)
+        after = asked.about(told, _exceeding(rest), base)
+        rest = _THEN.sub("", _exceeding(rest))
         if not rest or _is_result(told, rest):
             noun = _NOUN.search(rest)
             about = asked.term(noun[0]) if noun else None
@@ -150,6 +158,11 @@ def supposed(asked: AskedWords) -> Calculated | None:
         if found and told.expression in found.truth:
             return found
     return None
+
+
+def _exceeding(rest: str) -> str:
+    """'Would the limit be breached' as 'would it exceed the limit'."""
+    return _EXCEEDED.sub(r"would it exceed the \g<bound>", rest)
 
 
 def begins_supposed(question: str) -> bool:
@@ -198,6 +211,7 @@ def _clauses(words: str) -> Iterator[tuple[str, str]]:
 
 def _done(change: str) -> str:
     """A change without its subject as one with it: 'doubling the force' is 'i double the force'."""
+    change = _HAVING.sub("with ", change)
     verb, _, rest = change.removeprefix("by ").partition(" ")
     return f"i {_GERUNDS[verb]} {rest}" if verb in _GERUNDS else change
 

@@ -22,6 +22,7 @@ from tacgrasp.lessons.dialogue.choices.conditions import (
     compared_to,
     with_cues,
 )
+from tacgrasp.lessons.dialogue.choices.named import named_or_none
 from tacgrasp.lessons.dialogue.choices.ranges import nearer_of, range_half
 from tacgrasp.lessons.dialogue.choices.rest import RestOfQuestion, rest_of
 from tacgrasp.lessons.dialogue.choices.scales import Offer, WordScale
@@ -68,6 +69,8 @@ _NO_CHOICE = re.compile(
 def chosen(question: str) -> Calculated | None:
     """What a question means that names alternatives; None where it says something else too."""
     asked = asked_words(spelled(question))
+    if truth := named_or_none(asked):
+        return chosen_by(truth, question)
     if " or " not in f" {asked.words} " or is_one_way(asked.words):
         return None
     if _NO_CHOICE.search(asked.words):
@@ -87,7 +90,8 @@ def chosen_by(truth: str, question: str) -> Calculated | None:
     for word in Expression(truth).choices:
         if re.search(r"\d", word):
             continue
-        written = re.search(r"[\s-]+".join(map(re.escape, word.split())), question, re.I)
+        said = r"[\s-]+".join(map(re.escape, word.split())).replace("center", "cent(?:er|re)")
+        written = re.search(said, question, re.I)
         if written and "'" not in written[0]:
             truth = truth.replace(f"'{word}'", f"'{' '.join(written[0].lower().split())}'")
     return Calculated(truth=truth, unit=None) if Expression(truth).names else None
@@ -269,6 +273,12 @@ def _cut(asked: AskedWords, offer: Offer, rest: RestOfQuestion) -> str | None:
     return choice_of((offer.said["cut"], "wholeness == 'cut'"), (offer.said["whole"], ""))
 
 
+def _center(asked: AskedWords, offer: Offer, rest: RestOfQuestion) -> str | None:
+    if rest.terms or not rest.has_only("place", "area", "offset"):
+        return None
+    return choice_of((offer.said["centered"], "position == 'centered'"), (offer.said["off"], ""))
+
+
 def _slip(asked: AskedWords, offer: Offer, rest: RestOfQuestion) -> str | None:
     """Whether the grip surely holds a named mass, or the given one."""
     loads = [term for term in rest.terms if term.expression != "force_n"]
@@ -290,6 +300,7 @@ _READERS: Sequence[tuple[WordScale, Reader]] = (
     (scales.COVERED, _covered),
     (scales.TOUCH, _touch),
     (scales.SLIP, _slip),
+    (scales.CENTER, _center),
     (scales.CUT, _cut),
     (scales.LIMIT, _limit),
     (scales.BAND, _band),

@@ -62,6 +62,8 @@ def _nearer(
     (first, near), (second, far) = one, two
     beside = far if far.has_quantity or far.unit else near
     subject = rest.terms[0] if rest.terms else None
+    if subject and subject.words == "press" and beside.dimension == "length":
+        subject = None  # 'is the press closer to 0.2 or to 1 mm' asks for its depth
     if subject is None and beside.dimension in ("force", "length", "fraction"):
         subject = usual(beside.dimension)
     pairs = [alike(subject, each) if subject else None for each in (near, far)]

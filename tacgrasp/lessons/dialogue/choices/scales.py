@@ -274,6 +274,17 @@ LIMIT = WordScale(
         ),
     }
 )
+CENTER = WordScale(
+    {
+        "centered": r"(?:dead |well )?cent(?:er|ered|ral)|(?:in the )?(?:dead )?middle",
+        "off": (
+            r"(?:off(?: to| on)? (?:the |a |one )?(?:center|middle|side)|off centered|eccentric|"
+            r"out of (?:the )?(?:center|middle)|somewhere else|elsewhere|decentered|not centered)"
+        ),
+    }
+)
+"""Whether it lies in the middle cell."""
+
 CUT = WordScale(
     {
         "cut": (
@@ -313,7 +324,7 @@ ENDS = WordScale(
 """Ends, or halves, of a range."""
 
 ALL = (
-    STEP, MAJORITY, COVERED, TOUCH, SLIP, CUT, LIMIT, BAND, IN_BAND, ENDS, COMPARED, AXIS, SIDE_X,
-    SIDE_Y,
+    STEP, MAJORITY, COVERED, TOUCH, SLIP, CENTER, CUT, LIMIT, BAND, IN_BAND, ENDS, COMPARED, AXIS,
+    SIDE_X, SIDE_Y,
 )  # fmt: skip
 """All scales."""

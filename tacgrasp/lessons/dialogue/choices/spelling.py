@@ -18,6 +18,14 @@ _ONE_WAY = re.compile(
 _SLASH = re.compile(r"\b([a-z]{2,}) ?/ ?([a-z]{2,})\b", re.I)
 _SPELLED = (
     (re.compile(r"\bbetween (zero|nothing|\d[\w.]*(?: \w+)?) and\b", re.I), r"from \1 to"),
+    (
+        re.compile(
+            r"(?<![\w.])(\d+(?:\.\d+)?)(?= or (?:to )?\d+(?:\.\d+)? ?(mm|cm|[µu]m|n|g|"
+            r"newtons?|grams?|microns?|%)(?![\w/]))",
+            re.I,
+        ),
+        r"\1 \2",
+    ),
     (re.compile(r"\b(way|side|half|end|it|that|what|which|she|he)['’]s\b", re.I), r"\1 is"),
     (re.compile(r"\b(it|that|this|they|he|she)['’]d\b", re.I), r"\1 would"),
     (

@@ -116,10 +116,58 @@ _NO_OFFSET = re.compile(
 )
 
 
+_SIDE = (
+    r"(?:the )?(?P<{0}>left|right|up(?:wards?)?|palm(?:wards?)?|down(?:wards?)?|"
+    r"(?:finger)?tip(?:wards?)?)"
+)
+_SIGNED = re.compile(
+    rf"\b(?:(?:taking |counting |with |where |if )?{_SIDE.format('counted')}(?: side)? (?:(?:as|is|"
+    r"being|counts? as|counted as|taken as) )?(?:positive|plus)|(?:positive|plus) (?:to|towards?|"
+    rf"for|is|being|means|meaning) {_SIDE.format('positive')}|"
+    r"(?:with|including|keep|keeping) (?:the |its )?signs?|"
+    r"signs? (?:included|kept|and all)|signed)\b"
+)
+_COUNTED_TO = (("left", "leftward"), ("right", "x"), ("up", "y"), ("palm", "y"))
+_MUST_MOVE = re.compile(
+    r"\b(?:(?:be|get) (?:moved|shifted|pushed|nudged|corrected)|"
+    r"(?:must|should|to) (?:move|shift|push|nudge))\b"
+)
+_OPPOSITE = {"leftward": "x", "x": "leftward", "y": "tipward", "tipward": "y"}
+_COORDINATE = re.compile(
+    r"(?:(?:what|how much|how large|how big|give me|state|tell me|report|is|are|the|its|lateral|"
+    r"sideways|horizontal|vertical|lengthwise|offset|coordinate|position|value|contact|of) )*"
+    r"(?P<axis>x|y)(?: (?:is|the|its|of|contact|touch|offset|coordinate|position|value|component|"
+    r"reading|direction|now))* in (?:mm|millimetres?|um|micrometres?|microns?|cm|centimetres?)"
+)
+"""'y in cm', 'lateral offset x, in microns'."""
+
+
 def offset_query(words: str) -> str:
     """The query of a question about offsets, in plain words; '' of any other question."""
     words = with_verbs(words)
-    return _way_back(words) or _axis(words) or _offset(words)
+    if coordinate := _COORDINATE.fullmatch(words):
+        return f"amount {coordinate['axis']} mm."
+    return _way_back(words) or _axis(words) or _signed(words) or _offset(words)
+
+
+def _signed(words: str) -> str:
+    """The offset along one axis with its sign, counted to the side that is named as positive."""
+    found = _SIGNED.search(words)
+    if found is None or not _HOW_FAR.search(words) or not _LENGTH_UNIT.search(words):
+        return ""
+    rest = f"{words[: found.start()]} {words[found.end() :]}"
+    if _NO_OFFSET.search(rest) or _UNSIGNED.search(rest):
+        return ""
+    side = found["counted"] or found["positive"]
+    axes = {"x" if shift["x"] else "y" for shift in _SIDE_SHIFT.finditer(rest)}
+    if side:
+        counted = (name for begin, name in _COUNTED_TO if side.startswith(begin))
+        axes = {next(counted, "tipward")}
+    if len(axes) != 1:
+        return ""
+    counted_to = axes.pop()
+    # what is moved back to the middle goes the other way
+    return f"amount {_OPPOSITE[counted_to] if _MUST_MOVE.search(rest) else counted_to} mm."
 
 
 def _way_back(words: str) -> str:

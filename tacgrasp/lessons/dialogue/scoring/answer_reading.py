@@ -170,17 +170,35 @@ class AnswerReading:
             return _class_words(name, self.text)
         phrases = _PHRASES.get(name) or _phrases_of(choices)
         text = self.text.replace("not cut", "whole")
-        return [str(word) for word, pattern in phrases.items() if re.search(pattern, text, re.I)]
+        found = []
+        for word in sorted(phrases, key=lambda each: -len(each)):
+            if re.search(phrases[word], text, re.I):
+                found.append(word)
+                text = re.sub(phrases[word], " ", text, flags=re.I)  # 'off-centre' says no 'centre'
+        return [str(word) for word in phrases if word in found]
 
 
 def _phrases_of(choices: Sequence[str]) -> Mapping[str, str]:
     """How answers say each of some words to choose from."""
-    plain = {word: rf"\b{re.escape(word)}\b" for word in choices}
+    plain = {word: rf"\b{re.escape(told)}\b" for word, told in _told_apart(choices).items()}
     for phrases in _PHRASES.values():
         meant = {word: _ALSO.get(word, word) for word in choices}
         if choices and set(meant.values()) <= phrases.keys():
             return {word: f"{phrases[meant[word]]}|{plain[word]}" for word in choices}
     return plain
+
+
+def _told_apart(choices: Sequence[str]) -> Mapping[str, str]:
+    """What tells each of some choices from the others: 'left' of 'left half' and 'right half'."""
+    shared = set.intersection(*(set(choice.split()) for choice in choices)) if choices else set()
+    told = {
+        choice: " ".join(word for word in choice.split() if word not in shared)
+        for choice in choices
+    }
+    is_apart = all(told.values()) and not any(
+        one in other.split() for a, one in told.items() for b, other in told.items() if a != b
+    )
+    return told if is_apart else {choice: choice for choice in choices}
 
 
 def read_answer(text: str) -> AnswerReading:

@@ -49,7 +49,24 @@ STATES = [
         "All: the whole of it is on the pad.",
     ),
 ]
+NAMED = [
+    ("Edge, corner or neither: what's against the pad?", "Neither: it is an ellipsoid."),
+    ("Is it an ellipsoid or not an ellipsoid?", "It is an ellipsoid."),
+    ("Is it a cylinder or not a cylinder?", "Not a cylinder: it is an ellipsoid."),
+    ("Is it bumpy, woven, or neither of the two?", "Neither: the surface is smooth."),
+    ("Stripes, dots, wave or none of these?", "None of these: it is an ellipsoid."),
+    ("Smooth, rough, bumpy, or another texture: which one is it?", "The surface is smooth."),
+    (
+        "Does this feel like a sphere, or like something else?",
+        "Something else: it is an ellipsoid.",
+    ),
+]
+CENTER = [
+    ("Is it central or off to one side?", "Central."),
+    ("Centre or off-centre, which is it?", "Centre."),
+]
 RANGES = [
+    ("Is the press closer to 0.2 or 1 mm?", "0.2 mm: the depth is 0.19 mm."),
     (
         "Is the felt force nearer the floor or the ceiling of the wanted range?",
         "Ceiling: the force is 0.83 N, the least force wanted is 0.62 N and the most force wanted "
@@ -75,7 +92,7 @@ PLACES = [
     ("Upper half or lower half of the pad, where is it?", "Lower: y is -1.2 mm."),
     ("To get back to the middle, must the part move left or right?", "Left: x is +0.8 mm."),
 ]
-ALL = [row for rows in (SIDES, STEPS, STATES, RANGES, PLACES) for row in rows]
+ALL = [row for rows in (SIDES, STEPS, STATES, NAMED, CENTER, RANGES, PLACES) for row in rows]
 
 
 @pytest.mark.parametrize(("question", "text"), ALL)

@@ -1,0 +1,121 @@
+"""Named shapes or textures, or none of them: 'disc, ring or something else?'.
+
+    Edge, corner or neither: what is it?    'edge' if shape == 'edge' else ... else 'neither'
+    Is it a cylinder or not a cylinder?     'cylinder' if shape == 'cylinder' else 'not a cylinder'
+
+Not here: alternatives that are all named ('an edge or a corner?'), which the grammar and the
+language model read, and ``tacgrasp.lessons.dialogue.choices.own_words`` answers.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+
+from tacgrasp.lessons.dialogue.calculations.asked import AskedWords, asked_words
+from tacgrasp.lessons.dialogue.choices.conditions import choice_of
+from tacgrasp.lessons.dialogue.choices.rest import rest_of
+from tacgrasp.lessons.dialogue.choices.scales import GAP
+from tacgrasp.lessons.dialogue.families.classes.lexicon import named, words_pattern
+from tacgrasp.lessons.dialogue.meaning import Calculated
+from tacgrasp.lessons.dialogue.plainer import AUXILIARY
+
+NamedClass = tuple[str, Mapping[str, str]]
+"""A word of a question, with the classes that it names by dimension."""
+
+_DIMENSIONS = ("shape", "texture")
+_SURFACE = re.compile(r"\b(?:texture|surface|finish|relief|feels?)\b")
+_KIND = r"(?:shape|form|one|kind|texture|finish|surface|thing|outline|pattern|class)"
+_NONE = re.compile(
+    rf" ?(?:or|and) (?:(?:is it |more |rather |is this |it is |just )*(?:like )?)"
+    rf"(?P<said>none(?: of (?:these|those|them|the (?:above|lot|#\d+)))?|"
+    rf"neither(?: of (?:these|those|them|both|(?:the )?#\d+))?|"
+    rf"(?:something|anything) (?:else|different|other)|some(?: (?:other|different) {_KIND})|"
+    rf"(?:another|other|others|a different|different)(?: {_KIND})?|"
+    r"(?P<denied>not (?:(?:an?|the) )?(?P<same>[a-z]+(?: shaped?)?)))"
+    r"(?: (?:altogether|entirely|instead))?(?= |$)"
+)
+_JOINT = re.compile(
+    r"(?: (?:or|and|or is it|or maybe|or perhaps|or rather|like|or like|or of|"
+    r"it is|is it))* ?"
+)
+_EITHER = re.compile(rf"{AUXILIARY} .*\beither .+ or ", re.I)
+_ARTICLE = re.compile(r"(?:\b(?:an?|the|no|any|some) )?$")
+_OBJECT = re.compile(
+    r"\b(?:the|this|that|my|our|your) (?!force|grip|depth|limit|band|mass|load|weight)[a-z]+"
+    r"(?= (?:is|are|has)\b|$)"
+)
+_NEUTRAL = re.compile(
+    rf"\b(?:(?:looks?|feels?|seems?|felt) like|like|match(?:es)?|resembles?|belongs? to|"
+    rf"dealing with|against|make of|pressed|pressing|imprint|shape|form|{_KIND}|"
+    r"would fit|fits?|describes?|"
+    r"call(?:ed)?|name|best)\b"
+)
+
+
+def either_named(question: str) -> Calculated | None:
+    """Whether it is one of some named classes: 'is it of either a triangle or a hexagon?'."""
+    if _EITHER.match(question) is None:
+        return None
+    asked = asked_words(question)  # without 'either'
+    listed, end = _listed(asked.words, len(asked.words))
+    dimension = _dimension(listed, asked.words)
+    if len(listed) < 2 or dimension is None or not _is_beside(asked, listed, end):
+        return None
+    truth = " or ".join(f"{dimension} == '{means[dimension]}'" for _, means in listed)
+    return Calculated(truth=truth, unit=None)
+
+
+def named_or_none(asked: AskedWords) -> str | None:
+    """A choice between named classes and none of them; None where a question is no such one."""
+    words = asked.words
+    out = _NONE.search(words)
+    if out is None:
+        return None
+    listed, end = _listed(words, out.start())
+    dimension = _dimension(listed, words)
+    if dimension is None or words[end : out.start()].strip():
+        return None
+    if out["denied"] and (len(listed) > 1 or out["same"] != listed[0][0]):
+        return None
+    if not _is_beside(asked, listed, out.end()):
+        return None
+    cases = [(word, f"{dimension} == '{means[dimension]}'") for word, means in listed]
+    return choice_of(*cases, (out["said"].split(" of the #")[0], ""))
+
+
+def _listed(words: str, end: int) -> tuple[Sequence[NamedClass], int]:
+    """Named classes up to a place that nothing but a joint parts, with where the last one ends.
+
+    Each has its classes by dimension: stripes and dots are both shapes and textures.
+    """
+    listed: list[NamedClass] = []
+    last = 0
+    for match in words_pattern().finditer(words, 0, end):
+        means = {
+            each.dimension: each.classes[0] for each in named(match[1]) if len(each.classes) == 1
+        }
+        if not means or (listed and not _JOINT.fullmatch(words[last : match.start()])):
+            return (), 0
+        listed.append((match[1], means))
+        last = match.end()
+    return listed, last
+
+
+def _dimension(listed: Sequence[NamedClass], words: str) -> str | None:
+    """What all of some named classes are of."""
+    shared = [each for each in _DIMENSIONS if listed and all(each in means for _, means in listed)]
+    is_surface = "texture" in shared and _SURFACE.search(words)
+    return "texture" if is_surface else next(iter(shared), None)
+
+
+def _is_beside(asked: AskedWords, listed: Sequence[NamedClass], end: int) -> bool:
+    """Whether nothing else is said before named classes and behind an end.
+
+    An object may have any name.
+    """
+    before = _ARTICLE.sub("", asked.words[: asked.words.index(listed[0][0])])
+    words = _NEUTRAL.sub(GAP, f"{before}{GAP}{asked.words[end:]}")
+    told = (rest_of(asked, each) for each in (words, _OBJECT.sub(GAP, words)))
+    rest = next((each for each in told if each is not None), None)
+    return rest is not None and not rest.terms and rest.has_only("place", "area")
