@@ -21,7 +21,6 @@ from policies.llm.text import DOUBTFUL_RATIO
 from tacgrasp.lessons.dialogue.answers import Answer, answer
 from tacgrasp.lessons.dialogue.expression import Expression
 from tacgrasp.lessons.dialogue.meaning import (
-    Amount,
     AnswerKind,
     Meaning,
     Several,
@@ -156,8 +155,6 @@ def _uncapital(text: str) -> str:
 
 def _near(meaning: Meaning, scene: AskedScene, scenes: Sequence[AskedScene]) -> float:
     """Fraction of scenes whose number lies within its usual tolerance of what is felt."""
-    if not isinstance(meaning, Amount):
-        return 1.0
     truth = Expression(truth_of(meaning))
     said, *values = (float(truth.evaluate(each.values()).value or 0.0) for each in (scene, *scenes))
     largest = tolerance_of(truth.names).of(said)

@@ -13,8 +13,7 @@ class ReadQuestion(NamedTuple):
     Attributes:
         query: It as a query.
         meaning: The query's meaning.
-        confidence: Probability of the query among those that model or classifier name; 1 by the
-            grammar.
+        confidence: Probability that it is the right query; 1 by the grammar.
     """
 
     query: str

@@ -10,6 +10,7 @@ form of the question speaks against it (``tacgrasp.lessons.question_form``).
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Sequence
 from functools import partial
@@ -90,9 +91,16 @@ FOLLOW_UP_WORDS = 5
 ALONE_FROM = 0.5
 """Confidence from which a question that does not begin as a follow-up is none. Our choice."""
 
-CALCULATED_CONFIDENCE = 0.85
-"""Confidence in the terms that were read of a question. Our choice, not fitted: a term may be read
-amiss, where a wording of the grammar is not."""
+CALCULATED_CONFIDENCE = 0.97
+"""Confidence in the terms that were read of a question: of 736 blind questions 98 % were read
+rightly, and of 126 that had not been looked at 97.6 %."""
+
+LIKELIEST, LONGER, MANY_PARTS, SURE = 0.88, -0.87, -1.55, 3.3
+"""Weights of what tells whether a query is the right one: the log odds of its probability among
+those named, the logarithm of the number of words, and whether it has several parts. Fitted by
+logistic regression to 1,475 blind questions that the grammar lacks; right ones have a higher
+confidence than wrong ones in 84 % of pairs (five-fold cross-validation), by the probability alone
+in 77 %."""
 
 _FOLLOWS = re.compile(r"(?:and|but|then|why|how come|what about|how about|same)\b", re.I)
 
@@ -211,11 +219,26 @@ def understood_by_model(
     writer: QueryWriter, question: str, before: str = ""
 ) -> ReadQuestion | None:
     """What a question means to model and classifier; None where they come to no query."""
+    read = read_by_model(writer, question, before)
+    return None if read is None else _doubted(question, read)
+
+
+def _doubted(question: str, read: ReadQuestion) -> ReadQuestion:
+    """What was read by the model, with the probability that it is the right query."""
+    likely = min(max(read.confidence, 1e-3), 1 - 1e-3)
+    odds = SURE + LIKELIEST * math.log(likely / (1 - likely))
+    odds += LONGER * math.log(max(len(question.split()), 1))
+    odds += MANY_PARTS * isinstance(read.meaning, Several)
+    return read._replace(confidence=1 / (1 + math.exp(-odds)))
+
+
+def read_by_model(writer: QueryWriter, question: str, before: str = "") -> ReadQuestion | None:
+    """What model and classifier read, with the query's probability among those that they name."""
     question = respelled(question)
     if is_beyond(question):
         return None
     if stated := denied_statement(question):
-        affirmed = understood_by_model(writer, f"Is it true that {stated}", before)
+        affirmed = read_by_model(writer, f"Is it true that {stated}", before)
         if denied := _denied(affirmed, question):
             return denied
     plain = plainer(question)
@@ -252,7 +275,7 @@ def understood_by_model(
         query, meaning = told, read_query(told, numbers or asked.numbers) or meaning
     read = ReadQuestion(query, meaning, confidence=float(weights[best] / weights.sum()))
     if not before:
-        by_model = partial(understood_by_model, writer)
+        by_model = partial(read_by_model, writer)
         read = divided(plain, read, understood_by_grammar, by_model) or read
     return _in_its_words(plain, _as_one(plain, read))
 
@@ -310,11 +333,12 @@ def understood_in_turn(writer: QueryWriter, question: str, before: str) -> ReadQ
     known = understood_by_grammar(question) or understood_by_grammar(question, before)
     if known is not None:
         return known
-    alone = understood_by_model(writer, question)
+    alone = read_by_model(writer, question)
     stands_alone = alone is not None and alone.confidence >= ALONE_FROM
     stands_alone = stands_alone or bool(_STANDS_ALONE.match(question))
     if stands_alone or len(question.split()) > FOLLOW_UP_WORDS:
-        return alone
-    behind = understood_by_model(writer, question, before)
+        return None if alone is None else _doubted(question, alone)
+    behind = read_by_model(writer, question, before)
     read = [each for each in (alone, behind) if each is not None]
-    return max(read, key=lambda each: each.confidence, default=None)
+    likeliest = max(read, key=lambda each: each.confidence, default=None)
+    return None if likeliest is None else _doubted(question, likeliest)

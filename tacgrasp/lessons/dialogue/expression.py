@@ -156,7 +156,10 @@ class Expression:
 
     @cached_property
     def choices(self) -> tuple[str, ...]:
-        """The words of ``a if c else b`` where it is one between quoted words; else empty."""
+        """The words of ``a if c else b`` where it is one between quoted words; else empty.
+
+        Of ``shape if shape in ('ring', 'disc') else 'neither'`` all that it names.
+        """
 
         def words(node: ast.AST) -> list[str | None]:
             match node:
@@ -164,6 +167,12 @@ class Expression:
                     return words(body) + words(orelse)
                 case ast.Constant(value=str(word)):
                     return [word]
+                case ast.Name(id=name) if name in CLASSES:
+                    return [
+                        each.value
+                        for each in ast.walk(self._tree)
+                        if isinstance(each, ast.Constant) and isinstance(each.value, str)
+                    ]
             return [None]
 
         found = [word for word in words(self._tree) if word is not None]

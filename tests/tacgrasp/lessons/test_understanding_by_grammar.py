@@ -54,6 +54,14 @@ def test_what_calculates_is_read_with_some_doubt(question, query):
     [
         ("Should I squeeze more?", "check force below."),
         ("y in cm", "amount y cm."),
+        ("If I ran a thumb over it, how would it feel?", "word texture."),
+        ("Which cell of the three-by-three grid is the contact in?", "word position."),
+        ("Which pupil left this on my desk?", "unknown owner."),
+        (
+            "What's the sideways distance in mm between the patch's middle and the pad's middle, "
+            "sign ignored?",
+            "amount offset_x mm.",
+        ),
         ("Lateral offset x, in micrometres?", "amount x µm."),
         ("How far off sideways in mm, left counted as positive?", "amount leftward mm."),
         ("How many µm is it off vertically, down is positive?", "amount tipward µm."),

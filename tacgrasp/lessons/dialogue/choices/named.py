@@ -32,7 +32,7 @@ _NONE = re.compile(
     rf"neither(?: of (?:these|those|them|both|(?:the )?#\d+))?|"
     rf"(?:something|anything) (?:else|different|other)|some(?: (?:other|different) {_KIND})|"
     rf"(?:another|other|others|a different|different)(?: {_KIND})?|"
-    r"(?P<denied>not (?:(?:an?|the) )?(?P<same>[a-z]+(?: shaped?)?)))"
+    r"(?P<denied>(?:not|anything but|other than) (?:(?:an?|the) )?(?P<same>[a-z]+(?: shaped?)?)))"
     r"(?: (?:altogether|entirely|instead))?(?= |$)"
 )
 _JOINT = re.compile(

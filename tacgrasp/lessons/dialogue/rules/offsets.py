@@ -110,6 +110,10 @@ _FROM_LINE = re.compile(
 )
 """The distance from the horizontal midline is y."""
 
+_MIDDLES = re.compile(
+    r"\bbetween (?:the )?(?:[\w']+ ){1,3}?(?:middle|center|centroid) and (?:the )?"
+    r"(?:(?:[\w']+ ){0,3}?(?:middle|center)(?: of the (?:pad|gel|sensor))?)"
+)
 _NO_OFFSET = re.compile(
     r"\b(?:#|band|force|limit|depth|deep|area|mass|newtons?|more than|less than|over|under|if|"
     r"bigger|larger|or|minus|plus|negative|positive|edge|rim|border|wide|width|between|and how)\b"
@@ -220,6 +224,7 @@ def _axis(words: str) -> str:
 
 def _offset(words: str) -> str:
     """The offset along one axis without its sign."""
+    words = _MIDDLES.sub("from the middle", words)
     if not _HOW_FAR.search(words) or not _LENGTH_UNIT.search(words) or _NO_OFFSET.search(words):
         return ""
     unsigned = _UNSIGNED.search(words)

@@ -67,6 +67,17 @@ _DOUBT = re.compile(
     r"(?P<what>shape|texture|depth|position|location|force|area|surface)"
 )
 _REASONS = {"location": "position", "surface": "texture", "force": "felt", "area": "felt"}
+_GRID = re.compile(
+    r"(?=.*\b(?:grid|raster|# by #|# x #)\b).*\b(?:which|what) (?:box|cell|square|field|sector|"
+    r"tile|region|compartment)(?: of (?:the|it|a) .*)? (?:is|does|has|holds?|contains?)\b.*"
+)
+_HOW_FELT = re.compile(
+    r"(?:if (?:i|you|we|one) (?:ran|run|drew|slid|put|moved?|stroked?) (?:an?|my|your) "
+    r"(?:thumb|finger|fingertip|hand|nail) (?:over|across|along|on) (?:it|this|the \w+) )?"
+    r"how (?:would|does|will|might) (?:it|this|the surface|its surface) feel"
+    r"(?: (?:to the touch|under (?:my|your|the) (?:thumb|finger)))?"
+)
+_LEFT_BY = re.compile(r"(?:who|which \w+|whose \w+) left (?:it|this|that|the \w+)\b")
 _HARDER_OR_SOFTER = re.compile(
     r"(?:should|shall|must|do|can|would) (?:i|we|you) .*"
     r"\b(?:squeeze|press|grip|push|pinch|clamp|hold|tighten)\b.*"
@@ -91,6 +102,12 @@ def other_query(words: str) -> str:
         _ASKS_CHANGE.match(words) and _CHANGED.search(words) and "#" not in words
     ):
         return "unknown past."
+    if _LEFT_BY.match(words):
+        return "unknown owner."
+    if _GRID.match(words):
+        return "word position."
+    if _HOW_FELT.fullmatch(words):
+        return "word texture."
     if doubt := _DOUBT.match(words):
         return f"why {_REASONS.get(doubt['what'], doubt['what'])}."
     is_advice = _HARDER_OR_SOFTER.match(words) and "#" not in words

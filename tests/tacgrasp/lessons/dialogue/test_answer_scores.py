@@ -123,6 +123,9 @@ def test_a_choice_by_a_condition_is_one_of_its_words():
     assert not right("Above or below.", "choice", truth)
     assert right("Left: x is -0.6 mm.", "choice", "'left half' if x_mm < 9 else 'right half'")
     assert not right("Right.", "choice", "'left half' if x_mm < 9 else 'right half'")
+    truth = "shape if shape in ('ring', 'disc') else 'neither'"
+    assert right("Neither: it is an ellipsoid.", "choice", truth)
+    assert not right("It is a ring.", "choice", truth)
     assert right("Off-centre.", "choice", "'centre' if x_mm > 9 else 'off-centre'")
     assert not right("Centre.", "choice", "'centre' if x_mm > 9 else 'off-centre'")
     assert right("It is nearer to the palm.", "choice", "'palm' if y_mm > -5 else 'fingertip'")
