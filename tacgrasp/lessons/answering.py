@@ -38,9 +38,9 @@ SURE_FROM = 0.9
 """Fraction of the numbers that may be true, under which an answer must hold to be said without
 'probably'. As many lie in their intervals."""
 
-UNSURE_BELOW = 0.4
+UNSURE_BELOW = 0.6
 """Probability of a query below which the answer says that another question may have been meant. Our
-choice: of so unsure readings of the kept-out questions every second is wrong."""
+choice: of 116 so unsure readings of blind questions every second is wrong."""
 
 UNSURE = "Perhaps you meant something else."
 

@@ -255,7 +255,7 @@ def test_a_line_that_cannot_be_answered_is_told_in_its_place(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     for flags in ([], ["--json"]):
-        lines = "How deep is it?\nHallo Welt\nHow zorby?\n"
+        lines = "How deep is it?\nHallo Welt\nHow deep is it?\n"
         monkeypatch.setattr("sys.stdin", Typed(lines, terminal=False))
         assert main(["ask", touch, *flags]) == 2
         printed = capsys.readouterr()
