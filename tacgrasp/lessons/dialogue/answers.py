@@ -267,7 +267,7 @@ def _description(scene: AskedScene) -> str:
     noun = " ".join(words if several else [with_article(" ".join(words or ["object"]))])
     area = amount_text("area", 100 * state.area_fraction, "%", scene)
     return (
-        f"{capital(noun)}, {place(str(state.position))}, pressed {state.depth} "
-        f"({state.depth_mm:.2f} mm), with {with_article(str(state.area))} contact area ({area}) "
+        f"{capital(noun)}, {place(str(state.position))}, with {with_article(str(state.depth))} "
+        f"press ({state.depth_mm:.2f} mm), {with_article(str(state.area))} contact area ({area}) "
         f"and {state.force_n:.2f} N."
     )

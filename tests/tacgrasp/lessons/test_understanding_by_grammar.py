@@ -36,6 +36,10 @@ class Refusing:
             "calculate band_low_n <= (force_n + 1) <= band_high_n.",
         ),
         ("Would holding 250 g require more than the limit?", "calculate gram_n * 250 > limit_n."),
+        (
+            "Would a 300 g apple need more than you're allowed to press?",
+            "calculate gram_n * 300 > limit_n.",
+        ),
         ("Will lifting 50 g take less than the limit?", "calculate gram_n * 50 < limit_n."),
         (
             "Does the imprint belong to either a triangle or a hexagon?",

@@ -188,7 +188,7 @@ def sure_to_hold(asked: AskedWords) -> Calculated | None:
 
 def needs_more(asked: AskedWords) -> Calculated | None:
     """Whether a load needs more, or less, force than a bound; None of other questions."""
-    found = _NEEDS_MORE.fullmatch(asked.words)
+    found = _NEEDS_MORE.fullmatch(_ALLOWED.sub("the limit", asked.words))
     bound = asked.term(found["bound"]) if found else None
     if found is None or bound is None or bound.dimension != "force":
         return None
@@ -212,6 +212,10 @@ def _holds_it(asked: AskedWords, mass: Term) -> Calculated | None:
     return Calculated(truth=f"force_n >= gram_n * {mass.factor}", unit=None)
 
 
+_ALLOWED = re.compile(
+    r"\b(?:(?:the force|what) )?(?:that )?(?:we|you|i|it|the gripper) (?:(?:is|are|am) (?:allowed|"
+    r"permitted)(?: to)?|may|can) (?:press|use|apply|exert|squeeze)(?: with| at most)?$"
+)
 _NEEDS_MORE = re.compile(
     r"(?P<load>(?:would|will|does|do) .+?) (?:need|require|take|demand|call for|ask for) "
     r"(?P<sign>more|less) (?:force |grip |newtons )?than (?P<bound>.+?)(?: allows| permits)?"

@@ -96,11 +96,11 @@ def test_articles_and_plurals_are_right():
     assert text_of(Which(name="shape", length=Length.WORD), HELD) == "Ellipsoid."
     described = text_of(Description(), HELD)
     assert described == (
-        "A smooth ellipsoid, centered, pressed slight (0.19 mm), with a medium contact area "
+        "A smooth ellipsoid, centered, with a slight press (0.19 mm), a medium contact area "
         "(12 %) and 0.83 N."
     )
-    assert "with a very large contact area" in text_of(Description(), FIRM)
-    assert text_of(Description(), FREE).startswith("An object, centered, pressed slight")
+    assert "a very large contact area" in text_of(Description(), FIRM)
+    assert text_of(Description(), FREE).startswith("An object, centered, with a slight press")
 
 
 def test_a_check_names_its_reason():
