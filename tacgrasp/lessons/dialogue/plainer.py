@@ -102,13 +102,21 @@ _ADDED = re.compile(
     r"\bboth (?=\w+ and (?!\w+ (?:in|is|are)\b))|\beither (?=.* or )|\ball (?=in \w+\W*$)",
     re.I,
 )
+_STEP = (
+    r"(?:(?:whole|full|half|quarter|tenth|hundredth|thousandth|one|two|five|ten|hundred|"
+    r"\d+(?:\.\d+)?)\b(?: of an?\b)?)"
+)
+_STEP_UNIT = (
+    r"(?P<unit>(?:newtons?|n|mm|millimet(?:re|er)s?|microns?|micromet(?:re|er)s?|[µu]m|grams?|g|"
+    r"per ?cent)\b|%)"
+)
 _ROUNDED = re.compile(
-    r",?(?: rounded(?: off)?)? to the (?:next|nearest) (?:(?:whole|full|half|quarter|tenth|"
-    r"hundredth|thousandth|one|two|five|ten|hundred|\d+(?:\.\d+)?)(?: of an?)?\b ?)*"
-    r"(?P<unit>newtons?\b|n\b|mm\b|millimet(?:re|er)s?\b|microns?\b|micromet(?:re|er)s?\b|[µu]m\b|"
-    r"grams?\b|g\b|per ?cent\b|%)?",
+    rf",?(?: rounded(?: off)?)? to the (?:next|nearest) "
+    rf"(?:(?:{_STEP} )*{_STEP_UNIT}|{_STEP}(?=\W*$))",
     re.I,
 )
+"""'To the nearest tenth of a newton'; 'to the nearest edge' is something else."""
+
 _IN_UNIT = re.compile(r"\bin [a-zµ²%]+\b|\bhow many\b", re.I)
 _NUMBER = r"(?<![\d.,])(\d+(?:\.\d+)?)"
 _FOREIGN = (

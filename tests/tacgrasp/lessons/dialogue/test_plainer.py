@@ -21,6 +21,8 @@ from tacgrasp.lessons.dialogue.rules.unread import is_beyond
         ("I'm not going to drop it, am I?", "am I going to drop it?"),
         ("Force to the nearest tenth of a newton?", "Force in newton?"),
         ("Depth in mm, rounded to the nearest 0.1?", "Depth in mm?"),
+        ("Depth to the nearest ten microns?", "Depth in microns?"),
+        ("How far is it to the nearest edge?", "How far is it to the nearest edge?"),
         ("Could I trouble you for the depth?", "give me the depth?"),
         ("Give me the force, so I may put it into the report", "Give me the force"),
         ("Is it over 0.5 pounds?", "is it over 226.8 grams?"),
