@@ -9,6 +9,7 @@ import subprocess
 import sys
 import time
 from pathlib import Path
+from unittest import mock
 
 import numpy as np
 import pytest
@@ -24,6 +25,7 @@ from cltp.encoder.heads import targets
 from cltp.errors import TouchError
 from cltp.tactile.point_layout import GRID
 from cltp.texts.tokenizer import Words
+from cltp.train import distributed
 from cltp.train.alignment import train_cltp
 from cltp.train.clip_feature_cache import FrozenFeatures, rendered
 from cltp.train.curves import CurveFile, plot_curves, read_curves, smoothed
@@ -308,6 +310,22 @@ def test_workers_share_a_batch_evenly() -> None:
         second.per_process(7)
     with pytest.raises(TouchError, match="known: no, bf16"):
         joined_workers("fp8")
+
+
+@pytest.mark.parametrize(("slowdown", "is_told"), [(12.9, True), (0.6, False)])
+def test_bf16_that_the_processor_lacks_is_told(slowdown, is_told, monkeypatch, caplog) -> None:
+    monkeypatch.setattr(distributed, "bf16_slowdown", lambda: slowdown)
+    alone = mock.Mock(device=torch.device("cpu"), process_index=0, num_processes=1)
+    monkeypatch.setattr("accelerate.Accelerator", lambda **_: alone)  # a process has only one
+    joined_workers("bf16")
+    assert ("--precision no is faster" in caplog.text) is is_told
+    caplog.clear()
+    joined_workers("no")
+    assert not caplog.text
+
+
+def test_the_slowdown_of_bf16_is_a_ratio_of_times() -> None:
+    assert 0.01 < distributed.bf16_slowdown() < 1000
 
 
 @pytest.mark.slow
