@@ -6,7 +6,6 @@ any case can be made again.
 
 from __future__ import annotations
 
-import gc
 import json
 import resource
 import signal
@@ -83,7 +82,7 @@ def fuzz(
         result = FuzzResult(**json.loads(figures.read_text()))
     _warm_up(target)
     before_mib, began_s = _peak_mib(), time.thread_time()
-    with warnings.catch_warnings(), _hangs_interrupted(), _garbage_of_cases_alone():
+    with warnings.catch_warnings(), _hangs_interrupted():
         warnings.simplefilter("ignore")
         while result.cases < cases:
             if budget_s is not None and time.thread_time() - began_s > budget_s:
@@ -137,17 +136,6 @@ def _warm_up(target: FuzzTarget) -> None:
 
 def _peak_mib() -> float:
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
-
-
-@contextmanager
-def _garbage_of_cases_alone() -> Iterator[None]:
-    """Leave all objects of before to no collection: one of millions would be charged to a case."""
-    gc.collect()
-    gc.freeze()
-    try:
-        yield
-    finally:
-        gc.unfreeze()
 
 
 @contextmanager
