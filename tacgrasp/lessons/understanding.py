@@ -219,12 +219,13 @@ def understood_by_model(
     writer: QueryWriter, question: str, before: str = ""
 ) -> ReadQuestion | None:
     """What a question means to model and classifier; None where they come to no query."""
-    read = read_by_model(writer, question, before)
-    return None if read is None else _doubted(question, read)
+    return _doubted(question, read_by_model(writer, question, before))
 
 
-def _doubted(question: str, read: ReadQuestion) -> ReadQuestion:
+def _doubted(question: str, read: ReadQuestion | None) -> ReadQuestion | None:
     """What was read by the model, with the probability that it is the right query."""
+    if read is None:
+        return None
     likely = min(max(read.confidence, 1e-3), 1 - 1e-3)
     odds = SURE + LIKELIEST * math.log(likely / (1 - likely))
     odds += LONGER * math.log(max(len(question.split()), 1))
@@ -337,8 +338,7 @@ def understood_in_turn(writer: QueryWriter, question: str, before: str) -> ReadQ
     stands_alone = alone is not None and alone.confidence >= ALONE_FROM
     stands_alone = stands_alone or bool(_STANDS_ALONE.match(question))
     if stands_alone or len(question.split()) > FOLLOW_UP_WORDS:
-        return None if alone is None else _doubted(question, alone)
+        return _doubted(question, alone)
     behind = read_by_model(writer, question, before)
     read = [each for each in (alone, behind) if each is not None]
-    likeliest = max(read, key=lambda each: each.confidence, default=None)
-    return None if likeliest is None else _doubted(question, likeliest)
+    return _doubted(question, max(read, key=lambda each: each.confidence, default=None))

@@ -97,6 +97,8 @@ _EXCEEDED = re.compile(
     r"(?:(?:be|been|get|being) )*(?:breached|exceeded|violated|passed|broken|overshot|crossed|"
     r"surpassed|overstepped)"
 )
+"""'Would the limit be breached', which asks whether it would exceed the limit."""
+
 _HAVING = re.compile(
     r"^(?:(?:we|i|you|it) )?(?:(?:had|have|got) )?(?=#\d+ \w+ (?:more|less|extra)$)"
 )
@@ -143,8 +145,9 @@ def supposed(asked: AskedWords) -> Calculated | None:
         if (told := changed(before, change)) is None:
             continue
         base = _base(asked, told)
-        after = asked.about(told, _exceeding(rest), base)
-        rest = _THEN.sub("", _exceeding(rest))
+        rest = _EXCEEDED.sub(r"would it exceed the \g<bound>", rest)
+        after = asked.about(told, rest, base)
+        rest = _THEN.sub("", rest)
         if not rest or _is_result(told, rest):
             noun = _NOUN.search(rest)
             about = asked.term(noun[0]) if noun else None
@@ -158,11 +161,6 @@ def supposed(asked: AskedWords) -> Calculated | None:
         if found and told.expression in found.truth:
             return found
     return None
-
-
-def _exceeding(rest: str) -> str:
-    """'Would the limit be breached' as 'would it exceed the limit'."""
-    return _EXCEEDED.sub(r"would it exceed the \g<bound>", rest)
 
 
 def begins_supposed(question: str) -> bool:
