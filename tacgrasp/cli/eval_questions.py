@@ -118,7 +118,10 @@ def _show(results: dict[str, Any], answers: Sequence[ScoredAnswer], *, wrong: bo
             f"confidence: {_percent(trust['calibration_error'])} % off the fraction right in the "
             f"mean of ten groups; right above wrong in {_percent(trust['auroc'])} % (AUROC)"
         )
-    felt = "truth as felt (every question understood, and the touch of the model), "
+    felt = (
+        "true touch (the model's understanding of the true contact), truth as felt (every question "
+        "understood, and the touch of the model), "
+    )
     console.print(
         "trivial: no, yes, unknowable, most frequent; upper bounds: "
         f"{felt if AS_FELT in results['figures'] else ''}truth in words, and grammar on questions "

@@ -26,6 +26,7 @@ from cltp.llm.generation import Reply
 from tacgrasp.lessons.dialogue.calculations.calculated import calculated
 from tacgrasp.lessons.dialogue.calculations.suppositions import begins_supposed
 from tacgrasp.lessons.dialogue.choices.choosing import chosen
+from tacgrasp.lessons.dialogue.choices.named import loosely_named
 from tacgrasp.lessons.dialogue.choices.own_words import in_its_words
 from tacgrasp.lessons.dialogue.clauses.clauses import clauses_of, judged_as_one, unfelt
 from tacgrasp.lessons.dialogue.clauses.speech import asked_in_speech
@@ -210,6 +211,8 @@ def _by_other_words(question: str, before: str) -> ReadQuestion | None:
     told = (understood_by_grammar(each) for each in asked_in_speech(question))
     if told_alone := next((read for read in told if read is not None), None):
         return told_alone
+    if choice := loosely_named(question):
+        return ReadQuestion(query_of(choice), choice, CALCULATED_CONFIDENCE)
     if (meaning := unfelt(question)) is None:
         return None
     return ReadQuestion(query_of(meaning), meaning, CALCULATED_CONFIDENCE)

@@ -62,6 +62,9 @@ ALONE = "model alone"
 AS_FELT = "truth as felt"
 """Name in tables of what understands every question and feels as the model does."""
 
+TRUE_TOUCH = "true touch"
+"""Name in tables of the model that is told the contact as it is."""
+
 GRAMMAR_QUESTIONS = 500
 """Number of the grammar's own questions that its answers are scored on."""
 
@@ -155,7 +158,8 @@ def evaluate_questions(
             answers = answer_all(asked, model)
             without = answer_all(asked, asked_model(alone, spoken, len(asked), silent))
             felt = answer_all(asked, truth_as_felt(spoken))
-            scored = {"model": answers, ALONE: without, AS_FELT: felt, **scored}
+            told = answer_all(asked, with_true_touch(meant))
+            scored = {"model": answers, ALONE: without, TRUE_TOUCH: told, AS_FELT: felt, **scored}
             trust = {"confidence": confidence_figures(answers, confidences)}
     except ValueError as error:
         raise UsageError(f"the file of questions: {error}") from None
@@ -191,6 +195,19 @@ def truth_as_felt(spoken: Spoken) -> Callable[[AskedQuestion], str]:
     def reply(asked: AskedQuestion) -> str:
         scene = replace(asked.scene, state=spoken(asked.contact).state)
         return perfect_answer(replace(asked, scene=scene))
+
+    return reply
+
+
+def with_true_touch(meant: Understanding) -> Callable[[AskedQuestion], str]:
+    """What answers questions, as it understands them, about the contact as it is.
+
+    It is an upper bound for a touch that is read so: what it misses, language misses.
+    """
+
+    def reply(asked: AskedQuestion) -> str:
+        row = asked.row
+        return answered(meant(row.question, row.before), asked.scene).answer.text
 
     return reply
 

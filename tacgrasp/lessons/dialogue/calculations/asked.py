@@ -122,7 +122,8 @@ _AT_ONCE = re.compile(r" (?:at the same time|simultaneously|together|at once)$")
 _GIVEN_MASS = re.compile(
     r"^(?:with|given|by|from|going by) the (?:mass|weight)(?: "
     r"(?:that )?(?:i|we|you)(?: \w+){1,3}?)? (?=what|how)|"
-    r" (?:going by|given|from|by) the (?:mass|weight) (?:that )?(?:i|we|you|it)\b.*$"
+    r" (?:going by|given|from|by) the (?:mass|weight) (?:(?:that )?(?:i|we|you|it)\b.*|(?:given|"
+    r"stated|told))$"
 )
 _REMARK = re.compile(r" (?:i|we) need (?:it|this|that|them) .*$| whichever (?:is|one is) \w+$")
 _AMOUNT_OF = re.compile(

@@ -119,6 +119,7 @@ _CHANGES = tuple(
             r"(?P<a>.+)",
         ),
         ("+", r"(?:adding|putting) (?:another )?(?P<b>#.+?)(?: more)? to (?P<a>.+)"),
+        ("+", rf"(?P<b>(?:#\d+|one|an?) \w+) {_WAS}(?:added|put) (?:on)?to(?:p of)? (?P<a>.+)"),
         (
             "-",
             rf"{_WHO} (?:took|take|taking|removed?|shave|knock|subtract) (?P<b>.+?) "

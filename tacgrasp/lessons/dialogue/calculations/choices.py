@@ -24,8 +24,10 @@ _FROM_ZERO = r"(?: (?:in size|in magnitude|(?:from|to) (?:#\d+|the (?:middle|cen
 _WHICH = re.compile(
     rf"(?:which|what)(?: (?:one|figure|value|number|quantity|thing|offset|of (?:the|these) two|"
     rf"of these|is|are|from|the|(?:middle|center)))* (?:the )?(?:(?P<more>{_GREATER})|"
-    rf"(?P<less>{_LESS}))(?P<zero>{_FROM_ZERO})(?: one)?(?: of "
-    rf"(?:the |these |those )?(?:#\d+|two|both))? (?P<a>.+) or (?P<b>.+)"
+    rf"(?P<less>{_LESS}))(?P<zero>{_FROM_ZERO})(?: (?:one|number|figure|amount|value|"
+    r"quantity))?(?: of (?:(?:the |these |those )?(?:#\d+|two|both)|[a-z]+(?= (?:the|its|my|"
+    r"our)\b)))? "
+    r"(?P<a>.+) or (?P<b>.+)"
 )
 _NEARER = re.compile(
     r"(?:(?:is|are|does|do|was) )?(?P<a>.+?)(?: (?:sit|lie|lying|stand|be|stay|sitting))? "

@@ -48,9 +48,9 @@ _UNTIL = re.compile(
     r"(?: (?:deep |down )?(?:in|into) (?:the|this|that) \w+)?"
 )
 _SLACK = re.compile(
-    r"(?:what|how much) (?:slack|room|margin|leeway|headroom|distance|"
-    r"space)(?: (?:have we|do we have|is there|is|do you have))?(?: (?:left|got|still))* "
-    r"(?:before|to|until|up to|below|under|till) (?P<b>.+)"
+    r"(?:what|how much)(?: is the)? (?:slack|room|margin|leeway|headroom|distance|reserve|"
+    r"space)(?: (?:have we|do we have|is there|is|do you have|remains?|stays?|remaining))?"
+    r"(?: (?:left|got|still))* (?:before|to|until|up to|below|under|till) (?P<b>.+)"
 )
 _SEPARATED = re.compile(
     r"how much (?:separates?|divides?|lies? between|would separate|is between) (?P<a>.+?) "

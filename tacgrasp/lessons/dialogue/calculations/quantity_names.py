@@ -121,6 +121,10 @@ _NAMED: Mapping[str, tuple[str, str]] = {
     r"(?:whole |full |entire )?(?:pad|sensing area)|(?:full|complete|total) coverage": (
         "100", "fraction",
     ),
+    r"what (?:the )?(?:contract|rules?|spec|task|instructions?) (?:lets?|allows?|permits?) "
+    r"(?:(?:you|us|me|it|the gripper) )?(?:(?:to )?(?:apply|use|exert|press with|put on|"
+    r"squeeze with))?"
+    r"(?: at (?:the )?(?:very )?most)?": ("limit_n", "force"),
     r"(?:needed|required|necessary) force|force (?:that is )?(?:needed|required)(?: to hold it)?": (
         "gram_n * mass_g", "force",
     ),
@@ -128,7 +132,9 @@ _NAMED: Mapping[str, tuple[str, str]] = {
 NAMED = [(re.compile(pattern), *meant) for pattern, meant in _NAMED.items()]
 """Names of a quantity without its article, its expression, and the dimension of its unit."""
 
-WEIGHT = re.compile(rf"(?:own )?weight{_OF_THING}?|{_THING}(?:'s)?(?: own)? weight")
+WEIGHT = re.compile(
+    rf"(?:own )?weight{_OF_THING}?|{_THING}(?:'s)?(?: own)? weight|what (?:the )?{_THING} weighs"
+)
 """Names of the mass that are asked for in newtons too."""
 
 _BAND = re.compile(rf"(?:(?:the|our|this|whole|entire) )*{_BAND_NAME}")

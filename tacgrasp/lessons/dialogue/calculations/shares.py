@@ -53,7 +53,11 @@ _RATIOS = tuple(
         r"(?P<a>.+) by (?P<b>.+)",
         r"(?:what is )?(?P<a>.+) divided by (?P<b>.+)",
         r"(?:what is |the )*ratio (?:of|between) (?P<a>.+) (?:to|and) (?P<b>.+)",
+        r"(?:what is |the )*(?P<a>[a-z]+) to (?P<b>[a-z]+) ratio",
         r"how many times (?P<b>the .+?) (?:is|are) (?P<a>.+)",
+        r"how many times (?P<b>(?:its|the|their) .+?) (?:is|are|do|does) (?P<a>(?:we|you|i|it|"
+        r"the (?:gripper|robot|hand)) (?:squeez\w+|press\w*|gripp?\w*|hold\w*|pinch\w*))"
+        r"(?: (?:it|on|this|the object))* with",
         r"(?:by (?:what|which) factor|how many times|how many fold) (?:(?:would|must|should|does|"
         r"do|"
         r"could|can|will|has|have|may|might) )?(?P<b>.+?) (?:(?:have|need|has|needs) to |to )?"

@@ -45,12 +45,13 @@ _IMPERATIVE = re.compile(
     r"(?:(?:now|please|let us|let me) )*(?P<change>(?:multiply|divide|halve|double|triple|treble|"
     r"quadruple|add|cut|"
     r"take|raise|increase|lower|reduce|drop|knock|shave|trim|back off|ease off|put|boost|turn up|"
-    r"turn down|loosen|tighten) .+)"
+    r"turn down|loosen|tighten|(?:crank|turn|dial|step|push|bring|ease) (?:it|the \w+) (?:up|down|"
+    r"off)) .+)"
 )
 _BEGINS = re.compile(
     r"(?:what )?(?:if|suppose|supposing|imagine|assume|assuming|say|were|with|after|once|"
     r"multiply|divide|halve|double|triple|treble|quadruple|add|cut|raise|increase|lower|reduce|"
-    r"knock|shave)\b",
+    r"knock|shave|(?:crank|turn|dial|step|push|bring|ease) (?:it|the \w+) (?:up|down|off))\b",
     re.I,
 )
 _FORCE = r"(?:force|grip|squeeze|pressure|indentation)"

@@ -49,7 +49,7 @@ _NEUTRAL = re.compile(
     rf"\b(?:(?:looks?|feels?|seems?|felt) like|like|match(?:es)?|resembles?|belongs? to|"
     rf"dealing with|against|make of|pressed|pressing|imprint|shape|form|{_KIND}|"
     r"would fit|fits?|describes?|"
-    r"call(?:ed)?|name|best)\b"
+    r"call(?:ed)?|names?|best|which of (?:these|those|them|the following)|relief)\b"
 )
 
 
@@ -82,6 +82,55 @@ def named_or_none(asked: AskedWords) -> str | None:
         return None
     cases = [(word, f"{dimension} == '{means[dimension]}'") for word, means in listed]
     return choice_of(*cases, (out["said"].split(" of the #")[0], ""))
+
+
+_OFFERED_NONE = re.compile(
+    r"\b(?P<said>none(?: of (?:these|those|them|the (?:above|lot|#\d+)))?|neither(?: of (?:these|"
+    rf"those|them|both))?|(?:something|anything) (?:else|different|other)|some other {_KIND}|"
+    rf"(?:another|a different) {_KIND})\b"
+)
+_OF_OTHERS = re.compile(
+    r"#|\b(?:not|than|force|forces|newtons?|mm|depth|deep|deeper|limit|band|mass|weighs?|grams?|"
+    r"area|percent|left|right|top|bottom|upper|lower|cent(?:er|re)|middle|why|how|where|either)\b"
+)
+"""What a question with named classes says of something else."""
+
+
+def loosely_named(question: str) -> Calculated | None:
+    """A choice between two or more named classes and none, whatever else is said.
+
+    'Help me settle it: cylinder or cuboid? Say neither should both be wrong.'
+    """
+    asked = asked_words(question)
+    out = _OFFERED_NONE.search(asked.words)
+    if out is None or _OF_OTHERS.search(asked.words):
+        return None
+    runs = _runs(f"{asked.words[: out.start()]}|{asked.words[out.end() :]}")
+    lists = [run for run in runs if len(run) > 1]
+    dimension = _dimension(lists[-1], asked.words) if lists else None
+    offered = [{means.get(dimension or "") for _, means in each} for each in lists]
+    if dimension is None or any(each != offered[-1] for each in offered):
+        return None
+    listed = lists[-1]
+    cases = [(word, f"{dimension} == '{means[dimension]}'") for word, means in listed]
+    truth = choice_of(*cases, (out["said"].split(" of the #")[0], ""))
+    return None if truth is None else Calculated(truth=truth, unit=None)
+
+
+def _runs(words: str) -> Sequence[Sequence[NamedClass]]:
+    """Named classes, those together that nothing but a joint parts."""
+    runs: list[list[NamedClass]] = []
+    last = -1
+    for match in words_pattern().finditer(words):
+        means = {
+            each.dimension: each.classes[0] for each in named(match[1]) if len(each.classes) == 1
+        }
+        if means and last >= 0 and _JOINT.fullmatch(words[last : match.start()]):
+            runs[-1].append((match[1], means))
+        elif means:
+            runs.append([(match[1], means)])
+        last = match.end() if means else -1
+    return runs
 
 
 def _listed(words: str, end: int) -> tuple[Sequence[NamedClass], int]:

@@ -121,7 +121,8 @@ _AREAS = (
     "area contact patch footprint coverage cover covers covered covering coated fill fills filled "
     "filling span spans spanned spanning take takes taken taking occupy occupies occupied "
     "occupying touch touches touched touching spread spreads pressed press pressing imprint print "
-    "meet meets reach reaches share fraction percentage portion proportion squishy soft engaged "
+    "impression leave leaves leaving left meet meets reach reaches share fraction percentage "
+    "portion proportion squishy soft engaged "
     "wetted involved "
 )
 _HOLDS = (
@@ -140,7 +141,8 @@ _SIDEWAYS = r"\b(?:sideways|lateral|laterally|horizontal|horizontally)\b"
 _LENGTHWISE = r"\b(?:lengthwise|lengthways|vertical|vertically)\b"
 _COVERED = (
     r"\b(?:area|patch|footprint|coverage|cover\w*|fill\w*|span\w*|tak(?:es?|en|ing) up|occup\w+|"
-    r"touch(?:es|ed|ing)|contact|spread\w*|imprint|print|pressed|engaged)\b|\bof (?:the|your|our|"
+    r"touch(?:es|ed|ing)|contact|spread\w*|imprint|impression|print|pressed|engaged)\b|\bof (?:the|"
+    r"your|our|"
     r"its|my|this) (?:\w+ ){0,2}(?:pad|gel|sensor|skin|surface|area|rubber)\b"
 )
 _SURE = (

@@ -93,8 +93,8 @@ _ITEMS = (
           "mm µm cm"),
     _item("x", r"\bx\b", "x offset coordinate position value of sideways horizontal", "mm µm cm"),
     _item("y", r"\by\b", "y offset coordinate position value of lengthwise vertical", "mm µm cm"),
-    _item("position", r"\b(?:where|whereabouts|position|place|spot|location|cell)\b",
-          f"{_PADS} where whereabouts position place spot location cell touches touching "
+    _item("position", r"\b(?:where|whereabouts|position|place|spot|location|cell|sector)\b",
+          f"{_PADS} where whereabouts position place spot location cell sector touches touching "
           "touched sits lies "
           "is located on of presses meets landed pressed presses lands"),
     _item("depth", r"\b(?:depth|deep|indentation|dent|penetration|indented|sunk)\b|"

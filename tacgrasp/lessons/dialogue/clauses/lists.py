@@ -67,7 +67,8 @@ _REQUEST = re.compile(
     r"want) )*(?:to (?:know|have|see|hear) )?(?:(?:tell|give|show|send|read|quote|state|report|say|"
     r"list|name|log|print|dump|output|spit out|describe|record|measure|note|display|provide|"
     r"start with|begin with|end with|finish with|open with|return|include|mention|add|read out|"
-    r"sum up|summari[sz]e)(?: (?:me|us|"
+    r"sum up|summari[sz]e|(?:run|go|take (?:me|us)|walk (?:me|us)) through|rattle off|"
+    r"recite)(?: (?:me|us|"
     r"down|out|off|back))*(?: (?:both|all|everything|please))?[:,]? )?(?:for (?:me|us)[:,]? )?",
     re.I,
 )
@@ -85,7 +86,8 @@ _ENDING = re.compile(
     r"[,;. –—-]*(?:\b(?:please|thanks|thank you|pls|in that order|in this order|nothing (?:else|"
     r"more)|that is all|that['’]s all|be quick|go|now|quick(?:ly)?|keep it short|in one (?:go|line|"
     r"sentence|reply)|on one line|all (?:at once|together|in one)|at once|cheers|ta|will do|"
-    r"is all i need|for (?:the|my|our) "
+    r"is all i need|(?:read|give|tell|list|send|report|state|name|show)(?: (?:me|us))? (?:them|it)"
+    r"(?: (?:all|both))?(?: out| off)?|for (?:the|my|our) "
     r"(?:log|record|report|sheet|protocol|file|logbook|notes?))\b[\s.,!?]*)+$",
     re.I,
 )
@@ -97,6 +99,17 @@ _SHARED_UNIT = re.compile(
     rf"values))? in (?P<unit>{UNIT}|µm)[\s.?!]*$",
     re.I,
 )
+_EACH_UNIT = rf"(?:{UNIT}|µm|cm²|mm²|%)"
+_UNITS_BEHIND = re.compile(
+    rf"(?P<items>.+?)[:;,.]*(?: (?:all (?:the )?(?:two|three|four|of them)|both)(?: (?:numbers|"
+    rf"figures|values|of them))?,?)? (?:respectively )?in "
+    rf"(?P<units>{_EACH_UNIT}(?:(?:, and |, | and ){_EACH_UNIT})+)"
+    r"(?: respectively)?[\s.?!]*",
+    re.I,
+)
+"""'Force, coverage, depth in N, percent, mm'."""
+
+_BETWEEN_UNITS = re.compile(r",? and |, ")
 _BRACKETED = re.compile(rf"\s*[(\[]\s*(?:in )?(?P<unit>{UNIT}|µm|cm²|mm²|%)\s*[)\]]", re.I)
 _JOINT = re.compile(
     r"\s*(?:[,;?!|/+]|\.(?!\d)|\s[–—-]\s|\s&\s|\band\b|\bplus\b|\bthen\b|\bas well as\b|"
@@ -147,6 +160,10 @@ def _cores(question: str) -> Sequence[str]:
         told = f"{text[: shared.start()]} in {shared['unit']}"
         text = re.sub(r"\s*(?=[,;?]| and\b)", f" in {shared['unit']}", told)
     text = _OWN_UNIT.sub(" ", text)
+    if behind := _UNITS_BEHIND.fullmatch(text):
+        items, units = (_BETWEEN_UNITS.split(behind[name]) for name in ("items", "units"))
+        if len(items) == len(units):
+            text = ", ".join(f"{item} in {unit}" for item, unit in zip(items, units, strict=True))
     texts = [text]
     if (head := _HEAD.match(text)) and not _BEARING.search(_OPENING.sub("", head[0])):
         texts.insert(0, text[head.end() :])

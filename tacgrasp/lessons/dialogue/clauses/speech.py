@@ -77,6 +77,30 @@ _TELLS = re.compile(
 )
 """Who speaks of the circumstances; without, a noun may be what 'it' stands for."""
 
+_WHEN = re.compile(r"when (?:i|we|he|she|they|my|our|the) [^?]+, ", re.I)
+_WHETHER = re.compile(
+    r"(?P<before>[^?]*\b(?:tell|know|say|establish|hear|learn|inform|advise|confirm|check|"
+    r"determine|"
+    r"clarify|state|find out|see|report|record|wonder(?:ing)?|ask(?:ing)?|answer|decide|judge)\b"
+    r"[^?]*?)\b(?:whether|if) (?P<stated>[^?]+\??)",
+    re.I,
+)
+"""'I should like to tell the students whether it is round'."""
+
+_ASIDE = re.compile(
+    r",? ?\b(?:for (?:the|my|our|his|her) (?:record|log|logbook|minutes|report|file|protocol|form|"
+    r"notes?|books|homework|notebook|thesis|boss|paperwork|sheet|checklist)|without (?:any )?"
+    r"(?:hedging|waffl\w+|ifs (?:and|or) buts|beating a\w+ the bush)|possibly|perchance|"
+    r"by any chance|"
+    r"(?:rather|quite|fairly|pretty)(?! than)(?= (?:an? )?[a-z]+(?: [a-z]+)?\W*$)|"
+    r"if (?:i|we) may (?:ask|be so bold)|in your (?:own )?(?:opinion|view|judge?ment|estimation|"
+    r"estimate)|as far as you (?:can )?(?:tell|feel|judge|know|see)|to be (?:honest|frank|fair)|"
+    r"honestly|frankly|all things considered|as (?:it|things) stands?|as of now|"
+    r"(?:right this|at this very) (?:second|minute|instant|moment|point))\b,?(?! or\b)",
+    re.I,
+)
+"""What changes nothing wherever it stands."""
+
 LEAST_WORDS = 3
 """Shortest question that may stand alone [words]. Our choice: 'is it?' follows something."""
 
@@ -85,7 +109,9 @@ def asked_in_speech(question: str) -> Iterator[str]:
     """What of a speech may be its question, the longest first; nothing of what is no speech."""
     text = " ".join(question.split())
     seen = {text}
-    for each in (*_of_sentences(text), *_of_clauses(text), _with_comma(text)):
+    alone = " ".join(_ASIDE.sub(" ", text).split())
+    found = (*_of_sentences(text), *_of_clauses(text), _with_comma(text), alone, *_whether(text))
+    for each in found:
         if each not in seen and len(each.split()) >= LEAST_WORDS:
             seen.add(each)
             yield each
@@ -107,7 +133,7 @@ def _of_sentences(text: str) -> Iterator[str]:
 
 def _of_clauses(text: str) -> Iterator[str]:
     """What asks behind, or before, a clause that tells of something else."""
-    if _ASKS.match(text):
+    if _ASKS.match(text) and not _WHEN.match(text):
         for joint in _TRAILING.finditer(text):
             before, behind = text[: joint.start()], text[joint.end() :]
             is_told = re.match(r"(?:i|he|she|my|our|they|because)\b", behind, re.I)
@@ -125,6 +151,13 @@ def _of_clauses(text: str) -> Iterator[str]:
         if _ASKS.match(behind) or states:
             yield _with_comma(behind)
             return
+
+
+def _whether(text: str) -> Iterator[str]:
+    """What somebody wants to be told whether it is so, without why they ask."""
+    found = _WHETHER.fullmatch(text)
+    if found and not _bears(found["before"]):
+        yield f"Is it true that {found['stated'].rstrip('?')}?"
 
 
 def _bears(text: str) -> bool:

@@ -78,9 +78,14 @@ _BAND_KNOWN = _FORCES | words_of(
     "band range window corridor bracket target goal zone wanted desired agreed requested required "
     "specified set permitted allowed intended asked want wants falls fall land lands landed inside "
     "within under over above below beneath beyond outside short past neither nor either both ends "
+    "honour honours honoured honor honors honored respect respects respected comply complies with "
+    "conform conforms adhere adheres prescribed "
     "bounds limits that too low high much little weak strong loose tight soft firm hard light"
 )
-_WITHIN = re.compile(rf"\b(?:in|within|inside)\b(?: \w+){{0,4}} {_BAND_NOUN}\b|\bon target\b")
+_WITHIN = re.compile(
+    rf"\b(?:in|within|inside|honou?r(?:s|ed|ing)?|respect(?:s|ed|ing)?|compl(?:y|ies|ying) with|"
+    rf"conform(?:s|ing)? to|adher(?:e|es|ing) to)\b(?: \w+){{0,4}} {_BAND_NOUN}\b|\bon target\b"
+)
 _OUTSIDE = re.compile(rf"\b(?:outside|out of|off)\b(?: \w+){{0,4}} {_BAND_NOUN}\b")
 _UNDER = r"(?:under|below|beneath|short of|too (?:low|little|weak|loose|soft|light))"
 _OVER = r"(?:over|above|beyond|past|too (?:high|much|strong|tight|firm|hard))"

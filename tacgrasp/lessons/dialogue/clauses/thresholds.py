@@ -54,7 +54,7 @@ _KEPT = re.compile(
     rf"with )?{_IT})?(?: (?:now|here|then|so far))*|(?:have|are|did|do|does|is|has) {_WE}"
 )
 _BROKEN = re.compile(
-    rf"(?:{_VERB} (?:{_WE}|{_IT}) )?{_STILL}(?:violat(?:ed|ing)|broken|breach(?:ed|ing)?|"
+    rf"(?:{_VERB} (?:{_WE}|{_IT}) )?{_STILL}(?:violat(?:e|ed|ing)|broken|breach(?:ed|ing)?|"
     r"break(?:ing)?|"
     rf"overstepp(?:ed|ing)|crossed|outside|fail(?:ed|ing)?)(?: {_IT})?"
 )
@@ -106,9 +106,19 @@ _AT = re.compile(
 )
 
 
+_NUMBERED_RULE = re.compile(r"(?<=\w) [A-Z]{1,4}-?\d+(?:\.\d+)*\b(?! ?(?:N|mN|mm|g|%)\b)")
+"""'Requirement R-12': a name with a number, which measures nothing."""
+
+_ON_SOMETHING = re.compile(r" (?:on|for|with) (?:(?:this|that|the|such|my|our|an?) )?[a-z]+$")
+_SHARE_OF_LIMIT = re.compile(
+    r"(?:.* )?#1 percent of (?:(?:the|its|our|your|that) )?(?:(?:maximum|hard|force|allowed|"
+    r"permitted|allowable) )*(?:limit|ceiling|cap|maximum|force)(?: .*)?"
+)
+
+
 def kept(question: str) -> Calculated | None:
     """Whether a threshold that a sentence sets is kept or passed; None of other questions."""
-    text = " ".join(question.split())
+    text = _NUMBERED_RULE.sub("", " ".join(question.split()))
     for joint in reversed(list(_PARTS.finditer(text))):
         asked = numbered(text[joint.end() :])[0]
         if "#" in asked or not asked:
@@ -138,6 +148,10 @@ def _truth(setting: str, numbers: tuple[float, ...], asked: str) -> str:
             f"{setting[: found.end()]}at {'least' if least else 'most'} {setting[found.end() :]}",
             numbers, known=_SETTING,
         )  # fmt: skip
+    if not rule and (shorter := _ON_SOMETHING.sub("", setting)) != setting:
+        rule = compared(shorter, numbers, known=_SETTING)
+    if not rule and len(numbers) == 1 and _SHARE_OF_LIMIT.fullmatch(setting):
+        rule = f"100 * force_n / limit_n <= {numbers[0]:g}"
     told = _TOLD.fullmatch(rule)
     if told is None:
         return ""

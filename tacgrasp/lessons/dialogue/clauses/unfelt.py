@@ -181,9 +181,25 @@ _TOPICS = re.compile(
 )
 
 
+_OF_ANOTHER = re.compile(
+    r"(?:(?:hey|so|and|now|please|robot|say|tell me) )*(?:(?:is|are|was|has|have|does|will|"
+    r"how (?:much|many|high|full|low)|what is|what are|"
+    r"what would)\b )(?:[\w']+ ){0,4}?(?:(?P<inside>"
+    r"sugar|calories|vitamins?|protein|cholesterol|caffeine|salt|fat|acid\w*|ph|water)|"
+    r"(?P<electricity>"
+    r"batter(?:y|ies)|battery's|charger|fuse)|(?P<trait>blood pressure|heart rate|pulse rate|"
+    r"cholesterol|"
+    r"fever)|(?P<price>per kilo(?:gram)? .*(?:market|town|shop|store)|market price|salary|wage))\b"
+    r"(?!.* than (?:a|an|the|that)\b).*"
+)
+"""What has a number, but none of touch: 'how much sugar has it got per 100 g?'."""
+
+
 def unfelt_query(words: str) -> str:
     """The query of a question in plain words that touch can't answer; '' of any other question."""
     words = _GRIPPED.sub("", words)
+    if other := _OF_ANOTHER.fullmatch(words):
+        return f"unknown {next(name for name, said in other.groupdict().items() if said)}."
     if _TOUCH.search(words):
         return ""
     if _TOPICS.search(words) or _REQUESTS.fullmatch(words):

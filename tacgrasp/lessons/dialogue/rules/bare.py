@@ -144,6 +144,10 @@ _BETTING = re.compile(
     r"that|think|"
     r"what|which|so|if|had|to|a|the|pad|gel|sensor|there|here|covered|touched| )*"
 )
+_HOW_MANY_MM2 = re.compile(
+    rf"(?:(?:tell|give) me )?how many (?:mm2|square millimetres)(?: of {_PAD})?(?: of (?:the )?#)? "
+    rf"{_IS}(?P<free>{_FREE})"
+)
 _HOW_MUCH = re.compile(
     rf"(?:(?:tell|give) me )?(?:how much|how large a (?:part|share|percentage|fraction|portion)|"
     r"how many percent|"
@@ -161,6 +165,8 @@ def bare_query(words: str, numbers: Sequence[float]) -> str:
         numbers: Its numbers.
     """
     words = _TAG.sub("", _OPENING.sub("", words))
+    if _HOW_MANY_MM2.fullmatch(words):
+        return "amount free_area mm²."
     if _HOW_MUCH.fullmatch(words):
         return "amount free_area %."
     if found := _COMPARED.fullmatch(words):

@@ -28,7 +28,7 @@ def dimension_of(truth: Expression) -> str:
         return "fraction"
     if "gram_n" in truth.names and set(truth.names) <= {"mass_g", "gram_n", *_FORCES}:
         return "mass" if _OVER_GRAM.search(truth.text) else "force"
-    if truth.names == ("area_mm2",) and "sqrt" in truth.text:
+    if truth.names == ("area_mm2",) and re.search(r"sqrt|\*\* ?0?\.5", truth.text):
         return "length"
     if set(truth.names) == {"force_n", "area_mm2"} and "/" in truth.text:
         return "pressure"
@@ -41,7 +41,7 @@ def dimension_of(truth: Expression) -> str:
     first = next(filter(None, map(_dimension_of_name, truth.names)), "")
     if has_gravity and first == "mass" and len(truth.names) == 1:
         return "force"
-    if has_gravity and truth.names == ("force_n",) and "/" in truth.text:
+    if has_gravity and set(truth.names) <= set(_FORCES) and "/" in truth.text:
         return "mass"
     return "ratio" if first == "fraction" and truth.is_hundredth else first
 
@@ -55,16 +55,25 @@ def scale_of(truth: Expression) -> float:
     dimension = dimension_of(truth)
     if dimension in ("", "fraction", "ratio"):
         return 1.0
-    gravity = [number for number in truth.numbers if _is_gravity(number)]
-    if not gravity:
-        return truth.power_of_ten
-    names = dict.fromkeys(truth.names, 1.0)
-    value = truth.evaluate(names).value if len(names) == 1 else None
-    if not isinstance(value, (int, float)) or value <= 0:
+    factor = _factor(truth)
+    if not any(map(_is_gravity, truth.numbers)):
+        sizes = [1 / unit.size for unit in UNITS.values() if unit.dimension == dimension]
+        named = (size for size in sizes if math.isclose(factor, size, rel_tol=1e-3))
+        is_power = math.isclose(truth.power_of_ten, factor, rel_tol=1e-3)
+        return truth.power_of_ten if is_power else next(named, truth.power_of_ten)
+    if factor <= 0:
         return 1.0
     own = 1 / GRAVITY_N_PER_G if dimension == "mass" else GRAVITY_N_PER_G
-    power = round(math.log10(value / own))
-    return 10.0**power if math.isclose(value, own * 10.0**power, rel_tol=0.01) else 1.0
+    power = round(math.log10(factor / own))
+    return 10.0**power if math.isclose(factor, own * 10.0**power, rel_tol=0.01) else 1.0
+
+
+def _factor(truth: Expression) -> float:
+    """What the first quantity of a sum is multiplied with; 0 where that is no number."""
+    zeros = dict.fromkeys(truth.names, 0.0)
+    values = [truth.evaluate(each).value for each in (zeros, {**zeros, truth.names[0]: 1.0})]
+    low, high = (value if isinstance(value, float) else math.nan for value in values)
+    return 0.0 if math.isnan(high - low) else high - low
 
 
 def unit_of(truth: Expression) -> str:
