@@ -107,6 +107,13 @@ _NEXT = re.compile(
     r"^(?:(?:right|ok(?:ay)?|now|and|so|then|good|great|well|please|robot|hey|on to|onto|bring on|let us have|ready for|time for|the|that is the) ?,? )*(?:next(?: up)?|another|one more|same again|and again|once more|again)(?: (?:the|big|small|red|ripe|little|good|straw|berry|strawberry|fruit|one|please|up|now|time|in line|in the row|in the (?:tray|punnet|box|queue))){0,4}(?=\s*(?:$|[,;:!–—-]))"
 )
 """'Next one, ...'."""
+_WANTED = re.compile(
+    r"^(?:(?:please|robot|robo|hey|hi|hello|ok(?:ay)?|so|yo|now)[ ,]*)*"
+    r"(?:(?:i (?:would|will) (?:like|love|take)(?: to (?:have|get))?|i (?:want|need)(?: to have)?|(?:can|could|may|might) (?:i|we) (?:please )?(?:have|get)|(?:give|hand|pass) (?:me|us)|let (?:me|us) have)"
+    r"(?: please)? (?:the|that|this|a|one|another|my|some)(?: \w+){0,2}? (?:straw ?berr(?:y|ies)|berr(?:y|ies)|fruit|one)\b|"
+    r"(?:initiate|start|begin|run|execute|perform|trigger)(?: the| a| your)? (?:pick\w*|grasp\w*|grip\w*|lift\w*)(?:[- ]up)? (?:sequence|cycle|routine|procedure|motion|run)\b)"
+)
+"""'I would like to have this fruit', 'initiate pick sequence'."""
 _SHORT = re.compile(
     r"^(?=.*(?:berry|fruit|usual|standard|default|next|again|another|one more))(?:(?:the|that|this|a|one|red|ripe|next|straw|berry|strawberry|fruit|please|up|now|ok|okay|alright|right|good|yo|hey|robot|go|and|then|usual|normal|standard|default|same|again|another|once|more|pick-?up|pick|grasp|lift)[ ,!.]*)+$"
 )
@@ -182,7 +189,7 @@ def _nothing_asked(numbers: Quantities) -> str:
             rf"^(?:please |robot,? |hey,? |now |just |go |can you |could you )*\b{words.any_of('off_domain')}\b",
             sentence,
         )
-        if is_off or starts_off or _REPORT.search(sentence):
+        if is_off or starts_off or _REPORT.search(_TURN.split(sentence)[-1].strip()):
             continue
         if (
             _asks_manner(sentence)
@@ -191,6 +198,7 @@ def _nothing_asked(numbers: Quantities) -> str:
             or _VERB_OBJECT.search(sentence)
             or _SHORT.match(sentence)
             or _NEXT.match(sentence)
+            or _WANTED.match(sentence)
         ):
             return ""
     return "no request to hold anything was understood"

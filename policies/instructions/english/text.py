@@ -25,6 +25,7 @@ _CONTRACTIONS = (
     (r"\bw/", "with "),
     (r"\bgonna\b", "going to"),
     (r"\bwanna\b", "want to"),
+    (r"\bgimme\b", "give me"),
     (r"\bgotta\b", "have to"),
     (r"\bpls\b|\bplz\b", "please"),
     (r"\bu\b", "you"),
