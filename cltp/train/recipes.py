@@ -6,7 +6,7 @@ Loads no torch, so that a command line can show these values and pass them on wh
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from typing import Literal
 
 from cltp.errors import TouchError
@@ -90,9 +90,12 @@ class CltpRecipe(AlignmentRecipe):
             raise TouchError(f"moved must be a fraction from 0 to 1, got {self.moved}")
 
 
+OptimiserName = Literal["adamw", "muon"]
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Schedule:
-    """How long and how fast a stage learns: AdamW, warm-up, cosine to a hundredth.
+    """How long and how fast a stage learns: warm-up, cosine to a hundredth.
 
     Attributes:
         steps: Optimiser steps.
@@ -101,6 +104,7 @@ class Schedule:
         weight_decay: Weight decay of matrices; vectors (biases, norms) have none.
         warm_up: Fraction of the steps during which the learning rate rises.
         largest_gradient: Norm that gradients are scaled down to.
+        optimiser: What moves the weights (``cltp.train.optimiser``).
 
     Raises:
         TouchError: A value is not positive.
@@ -112,6 +116,7 @@ class Schedule:
     weight_decay: float = 0.05
     warm_up: float = 0.05
     largest_gradient: float = 1.0
+    optimiser: OptimiserName = "adamw"
 
     def __post_init__(self) -> None:
         for name in ("steps", "batch_size"):
@@ -127,6 +132,16 @@ class Schedule:
             return self.learning_rate * progress / self.warm_up
         decayed = (progress - self.warm_up) / (1 - self.warm_up)
         return self.learning_rate * (0.01 + 0.99 * 0.5 * (1 + math.cos(math.pi * decayed)))
+
+
+MUON_RATE = 5e-3
+"""Learning rate of Muon at its peak. Our choice: after 1000 steps of 64 all losses but those of
+numbers are lower at 6e-3 than at 2e-3; on the way those of numbers and places are higher."""
+
+
+def by_muon(schedule: Schedule) -> Schedule:
+    """The schedule with Muon in the place of its optimiser, at Muon's own rate."""
+    return replace(schedule, optimiser="muon", learning_rate=MUON_RATE)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -27,6 +27,7 @@ from cltp.encoder.all_gather import averaged_gradients
 from cltp.errors import TouchError
 from cltp.train.curves import CurveFile, plot_curves
 from cltp.train.distributed import Workers
+from cltp.train.optimiser import Optimiser
 from cltp.train.recipes import Schedule
 
 _CONTENT = {"identity", "step", "model", "optimiser", "rng", "means"}
@@ -121,11 +122,7 @@ class Stage:
             shared["also_fraction"] = run.also_fraction
         self._identity = json.dumps({**identity, **shared}, sort_keys=True)
         self._parameters = [p for p in model.parameters() if p.requires_grad]
-        matrices = [p for p in self._parameters if p.ndim > 1]
-        vectors = [p for p in self._parameters if p.ndim <= 1]
-        decays = ((matrices, schedule.weight_decay), (vectors, 0.0))
-        groups = [{"params": params, "weight_decay": decay} for params, decay in decays if params]
-        self._optimiser = torch.optim.AdamW(groups, lr=schedule.learning_rate, betas=(0.9, 0.98))
+        self._optimiser = Optimiser(model, schedule)
         self.step = self._restore()
         self.curves = self._path.with_suffix(".csv")
         self._curve = CurveFile(self.curves, self.step) if self._workers.is_first else None
@@ -164,13 +161,11 @@ class Stage:
                     f"{self.name}: the loss became {float(total.detach())} in step {self.step}; "
                     "lower the learning rate or look at the data"
                 )
-            for group in self._optimiser.param_groups:
-                group["lr"] = self.schedule.rate(self.step)
-            self._optimiser.zero_grad(set_to_none=True)
+            self._optimiser.clear()
             total.backward()
             averaged_gradients(self._parameters)
             nn.utils.clip_grad_norm_(self._parameters, self.schedule.largest_gradient)
-            self._optimiser.step()
+            self._optimiser.step(self.schedule.rate(self.step))
             self.step += 1
             values = {name: float(term.detach()) for name, term in terms.items()}
             for name, value in values.items():
@@ -199,7 +194,7 @@ class Stage:
             "identity": self._identity,
             "step": self.step,
             "model": self.model.state_dict(),
-            "optimiser": self._optimiser.state_dict(),
+            "optimiser": self._optimiser.state(),
             "rng": torch.get_rng_state(),
             "means": self._means,
         }
@@ -228,7 +223,7 @@ class Stage:
                 "it to start afresh, or train into another folder"
             )
         self.model.load_state_dict(content["model"])
-        self._optimiser.load_state_dict(content["optimiser"])
+        self._optimiser.restore(content["optimiser"])
         torch.set_rng_state(content["rng"])
         self._means = content["means"]
         return int(content["step"])

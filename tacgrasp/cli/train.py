@@ -16,7 +16,9 @@ from cltp.train.recipes import (
     CLTP_TUNING,
     ClipRecipe,
     CltpRecipe,
+    OptimiserName,
     Schedule,
+    by_muon,
 )
 from tacgrasp.base.errors import UsageError
 from tacgrasp.base.folders import check_folder
@@ -87,12 +89,14 @@ class PretrainingFlags(MethodsFlags):
         tensorboard: Also write curves for TensorBoard into OUT/tensorboard; needs that package.
         steps: Optimiser steps. Default: 5000, of clip 400; 400 for cltp with --start.
         batch_size: Contacts in a step, of all processes together.
+        optimiser: What moves the weights. Muon needs far fewer steps (docs/pretraining.md).
     """
 
     precision: Literal["no", "bf16"] = "no"
     tensorboard: bool = False
     steps: int | None = None
     batch_size: int = CLTP_SCHEDULE.batch_size
+    optimiser: OptimiserName = "adamw"
 
     def __post_init__(self) -> None:
         check_at_least_1("--steps", self.steps)
@@ -100,7 +104,8 @@ class PretrainingFlags(MethodsFlags):
 
     def schedule(self, usual: Schedule = CLTP_SCHEDULE) -> Schedule:
         steps = usual.steps if self.steps is None else self.steps
-        return replace(usual, steps=steps, batch_size=self.batch_size)
+        schedule = replace(usual, steps=steps, batch_size=self.batch_size)
+        return by_muon(schedule) if self.optimiser == "muon" else schedule
 
 
 @dataclass(frozen=True)
@@ -146,7 +151,8 @@ class TrainCltpFlags(TrainMethodFlags):
             without, the contacts of both sets come equally often.
         start: Folder of weights, or the word shipped: its encoder is trained on, behind its towers,
             instead of a random one.
-        learning_rate: Learning rate at its peak. Default: 0.002; 0.0005 with --start.
+        learning_rate: Learning rate at its peak. Default: 0.002, of muon 0.005;
+            0.0005 with --start.
     """
 
     recipe: Annotated[CltpRecipe, tyro.conf.OmitArgPrefixes] = field(default_factory=CltpRecipe)

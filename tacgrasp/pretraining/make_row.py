@@ -34,7 +34,7 @@ from tacgrasp.pretraining.methods import (
     pretraining_run,
 )
 from tacgrasp.pretraining.report.row_file import RowFile, measured, save_row
-from tacgrasp.pretraining.report.rows import BUDGET, CLIP, PRECISION, ROWS, RowRecipe, row_command
+from tacgrasp.pretraining.report.rows import BUDGET, PRECISION, ROWS, RowRecipe, row_command
 from tacgrasp.pretraining.report.store import GEOMETRIC_BASELINE, Result
 from tacgrasp.pretraining.work_clock import WorkClock
 
@@ -181,7 +181,8 @@ def _trained(
 def _clip_schedule(request: RowRequest) -> Schedule:
     """CLIP's own; where a row is tried out, the same part of it as of the budget."""
     part = 1.0 if request.samples is None else request.samples / BUDGET
-    return replace(CLIP, steps=max(1, round(CLIP.steps * part)))
+    usual = request.recipe.clip_schedule
+    return replace(usual, steps=max(1, round(usual.steps * part)))
 
 
 def _measured(run: EvaluationRun, recipe: RowRecipe, trained: TrainedMethod) -> list[Result]:

@@ -190,7 +190,7 @@ def pretrain(
         )
     if run.workers.is_first:
         device = run.workers.device
-        about = {
+        about: dict[str, object] = {
             "method": method,
             "preset": preset,
             "steps": 0 if method == "random" else schedule.steps,
@@ -201,6 +201,8 @@ def pretrain(
             "device": torch.cuda.get_device_name(device) if device.type == "cuda" else device.type,
             "command": run.command,
         }
+        if schedule.optimiser != "adamw":
+            about["optimiser"] = schedule.optimiser
         if also is not None:
             about["also"] = ContactDataset(also).checksum()
             about["also_fraction"] = also_fraction

@@ -13,7 +13,15 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from cltp.train.methods import ALIGNED_METHODS, IMAGE_METHODS, METHODS
-from cltp.train.recipes import CLIP_SCHEDULE, CLTP_SCHEDULE, ClipRecipe, CltpRecipe, Schedule
+from cltp.train.recipes import (
+    CLIP_SCHEDULE,
+    CLTP_SCHEDULE,
+    ClipRecipe,
+    CltpRecipe,
+    OptimiserName,
+    Schedule,
+    by_muon,
+)
 from tacgrasp.pretraining.report.store import GEOMETRIC_BASELINE
 
 BUDGET = 256_000
@@ -56,6 +64,7 @@ class RowRecipe:
         part: Part of ``BUDGET`` that its encoder sees.
         seeds: Random seeds of pre-training, noise and probes.
         learns_from: Name out of ``DATA``. Every row is measured on ``paper``.
+        optimiser: What moves the weights of its encoder and of its CLIP.
         variant: Name in tables of what has no encoder; that of the encoder when empty.
     """
 
@@ -67,6 +76,7 @@ class RowRecipe:
     part: Fraction = WHOLE
     seeds: tuple[int, ...] = (0,)
     learns_from: str = "paper"
+    optimiser: OptimiserName = "adamw"
     variant: str = ""
 
     @property
@@ -83,7 +93,8 @@ class RowRecipe:
     @property
     def towers(self) -> str:
         """Name of what its CLIP learns from; rows of one name share it."""
-        return self.learns_from if self.clip == _USUAL_CLIP else f"{self.learns_from}-captions"
+        name = self.learns_from if self.optimiser == "adamw" else f"{self.learns_from}-muon"
+        return name if self.clip == _USUAL_CLIP else f"{name}-captions"
 
     @property
     def remarks(self) -> list[str]:
@@ -91,11 +102,19 @@ class RowRecipe:
         remarks = [] if self.learns_from == "paper" else [f"learned from {self.learns_from}"]
         if self.clip != _USUAL_CLIP:
             remarks.append("CLIP too")
+        if self.optimiser == "muon":
+            remarks.append("Muon")
         return remarks + ([] if self.part == WHOLE else [f"{self.part} of the budget"])
 
     def schedule(self, samples: int) -> Schedule:
         """The schedule of so many samples; of one step where nothing is learned."""
-        return replace(CLTP_SCHEDULE, steps=max(1, samples // CLTP_SCHEDULE.batch_size))
+        usual = replace(CLTP_SCHEDULE, steps=max(1, samples // CLTP_SCHEDULE.batch_size))
+        return by_muon(usual) if self.optimiser == "muon" else usual
+
+    @property
+    def clip_schedule(self) -> Schedule:
+        """The schedule of its CLIP."""
+        return by_muon(CLIP) if self.optimiser == "muon" else CLIP
 
 
 def _quarter(
@@ -120,7 +139,13 @@ ROWS: Mapping[str, RowRecipe] = {
         method="cltp",
         learns_from="full",
     ),
+    "cltp_muon": RowRecipe(
+        about="CLTP, all points, by Muon instead of AdamW", method="cltp", optimiser="muon"
+    ),
     "cltp_quarter": _quarter("CLTP, all points, a quarter of the budget", _USUAL),
+    "cltp_muon_quarter": replace(
+        _quarter("CLTP, all points, by Muon, a quarter of the budget", _USUAL), optimiser="muon"
+    ),
     "cltp_pressure": replace(
         _quarter(
             "CLTP, all points and the pressure under their heights, a quarter of the budget", _USUAL
