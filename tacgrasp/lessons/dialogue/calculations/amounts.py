@@ -28,7 +28,10 @@ from tacgrasp.lessons.dialogue.meaning import Calculated
 from tacgrasp.lessons.dialogue.quantities import GRAVITY_N_PER_G, UNITS
 
 _WEIGHS = re.compile(
-    r"(?:how much|what) (?:does|do|would|will) (?:(?:the|that|this) )?[a-z]+ weigh"
+    r"(?:how much|what|how many #?[a-z]+) (?:does|do|would|will) (?:(?:the|that|this) )?"
+    r"(?:(?:held|gripped|grasped) )?[a-z]+ weigh|(?:with )?(?:how much|what|"
+    r"how many [a-z]+)(?: force)? "
+    r"(?:does|do) gravity pull (?:on |at )?(?:(?:the|that|this) )?[a-z]+(?: with| down| at)*"
 )
 _MASS_OF = re.compile(
     r"(?:what|which|how much|how large a) (?:mass|weight)(?: would| does)? "

@@ -12,6 +12,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 
+from cltp.tactile.states import CLASSES
 from tacgrasp.lessons.dialogue.calculations.asked import AskedWords, asked_words
 from tacgrasp.lessons.dialogue.choices.conditions import choice_of
 from tacgrasp.lessons.dialogue.choices.rest import rest_of
@@ -96,6 +97,13 @@ _OF_OTHERS = re.compile(
 """What a question with named classes says of something else."""
 
 
+_GRADES: Mapping[str, re.Pattern[str]] = {
+    name: re.compile(rf"\b(?:{'|'.join(sorted(CLASSES[name], key=len, reverse=True))})\b")
+    for name in ("depth", "area")
+}
+_OF_SIZE = {"depth": r"\b(?:area|patch|footprint|print)\b", "area": r"\b(?:depth|press|dent)\b"}
+
+
 def loosely_named(question: str) -> Calculated | None:
     """A choice between two or more named classes and none, whatever else is said.
 
@@ -103,7 +111,11 @@ def loosely_named(question: str) -> Calculated | None:
     """
     asked = asked_words(question)
     out = _OFFERED_NONE.search(asked.words)
-    if out is None or _OF_OTHERS.search(asked.words):
+    if out is None:
+        return None
+    if graded := _graded(asked.words, out["said"]):
+        return graded
+    if _OF_OTHERS.search(asked.words):
         return None
     runs = _runs(f"{asked.words[: out.start()]}|{asked.words[out.end() :]}")
     lists = [run for run in runs if len(run) > 1]
@@ -115,6 +127,23 @@ def loosely_named(question: str) -> Calculated | None:
     cases = [(word, f"{dimension} == '{means[dimension]}'") for word, means in listed]
     truth = choice_of(*cases, (out["said"].split(" of the #")[0], ""))
     return None if truth is None else Calculated(truth=truth, unit=None)
+
+
+def _graded(words: str, none: str) -> Calculated | None:
+    """A choice between words for the depth, or for the area, and none of them."""
+    others = _OF_OTHERS.sub(lambda found: found[0] if found[0] not in _GRADED else "", words)
+    if _OF_OTHERS.search(others) or " or " not in words:
+        return None
+    for name, pattern in _GRADES.items():
+        said = list(dict.fromkeys(pattern.findall(words)))
+        if len(said) > 1 and not re.search(_OF_SIZE[name], words):
+            cases = [(word, f"{name} == '{word}'") for word in said]
+            truth = choice_of(*cases, (none, ""))
+            return None if truth is None else Calculated(truth=truth, unit=None)
+    return None
+
+
+_GRADED = ("deep", "depth", "area")
 
 
 def _runs(words: str) -> Sequence[Sequence[NamedClass]]:

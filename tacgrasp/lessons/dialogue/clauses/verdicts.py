@@ -161,6 +161,7 @@ _ONLY_ONE = re.compile(
     r"not both)",
     re.I,
 )
+_NONE_OFFERED = re.compile(r"\bor (?:is it |maybe |perhaps )?(?:neither|none)\b", re.I)
 _OFFERED = re.compile(r"== '[\w -]+' or ")
 _OFFERS = re.compile(r"\w+,? (?:or|and) (?!more\b|less\b|above\b|over\b|below\b|under\b)", re.I)
 _EITHER = re.compile(r"\b(?:either|neither|nor|one of|any of|whichever|and)\b", re.I)
@@ -189,7 +190,7 @@ def judged(question: str) -> Calculated | None:
         return None
     if not is_framed and not (_VERB_FIRST.match(core) or text.rstrip().endswith("?")):
         return None
-    if _SENTENCE.search(core) or _ONLY_ONE.search(text):
+    if _SENTENCE.search(core) or _ONLY_ONE.search(text) or _NONE_OFFERED.search(text):
         return None
     condition = condition_of_statement(core, is_any=_ANY_OF.search(text) is not None)
     offers = _OFFERED.search(condition) is not None or _OFFERS.search(core) is not None

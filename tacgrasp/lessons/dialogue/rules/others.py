@@ -7,6 +7,7 @@ Is there any shear?                 unknown trait.
 How many dots are there?            unknown trait.
 How wide is the contact?            unknown size.
 Are you sure about the shape?       why shape.
+Is it in a corner of the pad?       calculate position in ('top-left', ...).
 Should I squeeze more or less?      choice action.
 """
 
@@ -77,6 +78,14 @@ _HOW_FELT = re.compile(
     r"how (?:would|does|will|might) (?:it|this|the surface|its surface) feel"
     r"(?: (?:to the touch|under (?:my|your|the) (?:thumb|finger)))?"
 )
+_IN_CORNER = re.compile(
+    r"(?:is|was|does|do) (?:it|this|that|the \w+|we|something|anything)(?: \w+){0,3}? "
+    r"(?:in|at|on|near|into|within)? ?(?:(?:one|any) of )?(?:(?:the|a|any|its|your) )?(?:# )?"
+    r"corners?(?: (?:zones?|regions?|cells?|areas?)(?: .*)?| of (?:the |your |its )?(?:pad|gel|"
+    r"sensor|"
+    r"grid|sensing area)(?: .*)?)"
+)
+_CORNERS = "('top-left', 'top-right', 'bottom-left', 'bottom-right')"
 _LEFT_BY = re.compile(r"(?:who|which \w+|whose \w+) left (?:it|this|that|the \w+)\b")
 _HARDER_OR_SOFTER = re.compile(
     r"(?:should|shall|must|do|can|would) (?:i|we|you) .*"
@@ -104,6 +113,8 @@ def other_query(words: str) -> str:
         return "unknown past."
     if _LEFT_BY.match(words):
         return "unknown owner."
+    if _IN_CORNER.fullmatch(words) and " or " not in words:
+        return f"calculate position in {_CORNERS}."
     if _GRID.match(words):
         return "word position."
     if _HOW_FELT.fullmatch(words):
