@@ -71,7 +71,7 @@ _THANKS = re.compile(
 
 _POLITE_VERB = re.compile(
     r"(?:would|could|can|will) you (?:please )?(?:be so kind as to|be kind enough to) |"
-    r"is it (?:fair|right|correct|safe) to (?:write|say|note|state) that ",
+    r"(?:is it|would it be) (?:fair|right|correct|safe) to (?:write|say|note|state) that ",
     re.I,
 )
 _SIGNS = (
@@ -117,6 +117,15 @@ _ROUNDED = re.compile(
 )
 """'To the nearest tenth of a newton'; 'to the nearest edge' is something else."""
 
+_AS_REFERENCE = re.compile(
+    r"(?:taking|using|with) (?P<mark>[^,?]+?) as (?:my|the|our|a|your) (?:reference|yardstick|"
+    r"dividing line|threshold|benchmark|baseline|mark|cut-?off|line)(?: (?:point|value|mark))?,? "
+    r"(?P<asks>[^,?]+\b(?:above or below|below or above|over or under|under or over|more than|"
+    r"less than|above|below|over|under|deeper than|beyond|past)) (?:it|that|this)\b(?P<rest>.*)",
+    re.I,
+)
+"""'Taking 0.4 mm as the dividing line, is it above that?'"""
+
 _IN_UNIT = re.compile(r"\bin [a-zµ²%]+\b|\bhow many\b", re.I)
 _NUMBER = r"(?<![\d.,])(\d+(?:\.\d+)?)"
 _FOREIGN = (
@@ -161,6 +170,7 @@ def plainer(question: str) -> str:
     if opening := _ADDRESS.match(text):
         text = text[opening.end() :]
     text = _ADDED.sub("", _POLITE_VERB.sub("", text, count=1))
+    text = _AS_REFERENCE.sub(r"\g<asks> \g<mark>\g<rest>", text)
     if rounded := _ROUNDED.search(text):
         rest = f"{text[: rounded.start()]}{text[rounded.end() :]}"
         unit = rounded["unit"] if not _IN_UNIT.search(rest) else None

@@ -45,6 +45,58 @@ class Refusing:
             "Does the imprint belong to either a triangle or a hexagon?",
             "calculate shape == 'triangle' or shape == 'hexagon'.",
         ),
+        (
+            "Help me settle it - cylinder or cuboid? Say neither should both be wrong.",
+            "calculate 'cylinder' if shape == 'cylinder' else 'cuboid' if shape == 'cuboid' "
+            "else 'neither'.",
+        ),
+        (
+            "Is that thing hexagonal like a nut, triangular like a tortilla chip, or something "
+            "else?",
+            "calculate 'hexagonal' if shape == 'hexagon' else 'triangular' if shape == 'triangle' "
+            "else 'something else'.",
+        ),
+        (
+            "Is the press slight, moderate, or neither?",
+            "calculate 'slight' if depth == 'slight' else 'moderate' if depth == 'moderate' "
+            "else 'neither'.",
+        ),
+        (
+            "Requirement R-12 says no indentation beyond 0.6 mm. Do we violate it?",
+            "calculate depth_mm > 0.6.",
+        ),
+        ("I must not exceed 400 mN on tissue. Am I above that?", "calculate force_n > 0.4."),
+        (
+            "At 75 % of the maximum allowed force I get nervous. Are we there already?",
+            "calculate 100 * force_n / limit_n >= 75.",
+        ),
+        ("force-to-depth ratio in N/mm?", "calculate force_n / depth_mm in N/mm."),
+        ("The limit is how many times the present force?", "calculate limit_n / force_n in 1."),
+        (
+            "Taking 0.4 mm as the dividing line, is the dent above or below that?",
+            "calculate 'above' if depth_mm > 0.4 else 'below'.",
+        ),
+        (
+            "And would one more newton take you over the limit they set you?",
+            "calculate force_n + 1 > limit_n.",
+        ),
+        (
+            "Crank it up by 20 percent: resulting newtons?",
+            "calculate (1 + 20 / 100) * force_n in N.",
+        ),
+        (
+            "State for the record whether the force is over 0.2 N and lower than 2 N.",
+            "calculate (force_n > 0.2) and (force_n < 2).",
+        ),
+        (
+            "What margin remains to the top of the band, in newtons?",
+            "calculate band_high_n - force_n in N.",
+        ),
+        ("What does the held item weigh, in newtons?", "calculate 0.00980665 * mass_g in N."),
+        (
+            "Is it in one of the corners of the pad?",
+            "calculate position in ('top-left', 'top-right', 'bottom-left', 'bottom-right').",
+        ),
     ],
 )
 def test_what_calculates_is_read_with_some_doubt(question, query):
@@ -147,6 +199,17 @@ def test_what_calculates_is_read_with_some_doubt(question, query):
         ("How big is the contact, briefly?", "amount area % in a word."),
         ("Contact patch area in mm²?", "amount area mm²."),
         ("Could I trouble you for the depth in microns?", "amount depth µm."),
+        (
+            "Force, coverage, depth: all three numbers in N, percent, mm.",
+            "amount force N; amount area %; amount depth mm.",
+        ),
+        ("Give me the depth and force in mm and N", "amount depth mm; amount force N."),
+        ("How many mm2 of the pad stay untouched?", "amount free_area mm²."),
+        ("Is it quite a deep dent?", "check depth deep."),
+        (
+            "When I shut the hand like this, is the contact in the upper or the lower half?",
+            "calculate 'upper' if y_mm > 0 else 'lower'.",
+        ),
     ],
 )
 def test_a_wording_of_the_grammar_means_what_the_grammar_says(question, query):

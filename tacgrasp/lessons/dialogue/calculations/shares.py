@@ -54,6 +54,9 @@ _RATIOS = tuple(
         r"(?:what is )?(?P<a>.+) divided by (?P<b>.+)",
         r"(?:what is |the )*ratio (?:of|between) (?P<a>.+) (?:to|and) (?P<b>.+)",
         r"(?:what is |the )*(?P<a>[a-z]+) to (?P<b>[a-z]+) ratio",
+        r"(?:[a-z]+ ){0,3}?(?:as |is )?(?P<a>force|depth|area) (?:over|divided by) (?P<b>(?:the )?"
+        r"(?:indentation |contact )?(?:depth|area|force))",
+        r"(?P<a>.+?) (?:is|are) how many times (?P<b>.+)",
         r"how many times (?P<b>the .+?) (?:is|are) (?P<a>.+)",
         r"how many times (?P<b>(?:its|the|their) .+?) (?:is|are|do|does) (?P<a>(?:we|you|i|it|"
         r"the (?:gripper|robot|hand)) (?:squeez\w+|press\w*|gripp?\w*|hold\w*|pinch\w*))"

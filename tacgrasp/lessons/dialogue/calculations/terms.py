@@ -83,7 +83,7 @@ _MULTIPLES: Mapping[str, str] = {
     r"(?:a |one )?tenth": "0.1",
 }
 _ARTICLE = re.compile(
-    r"(?:(?:the|our|your|its|this|that|an?|current|currently|present|presently|actual|measured|"
+    r"(?:(?:the|my|our|your|its|this|that|an?|current|currently|present|presently|actual|measured|"
     r"applied|exerted|felt|momentary|real|whole|total|overall|existing|latest|exact|full|size of|"
     r"value of|amount of|level of|figure for|reading of|contact's|object's|of) )+(?=\S)"
 )
@@ -93,7 +93,9 @@ _TRAILING = re.compile(
     r"on (?:the )?(?:pad|gel)|(?:that )?(?:you|we|i)(?: are| am)? "
     r"(?:feel|have|read|see|press|apply|measur|us|squeez|exert)(?:e|"
     r"ing)?(?: (?:with|now|there|here|on it))*|(?:that )?(?:the (?:gel|pad|skin)|it) "
-    r"(?:can|could|may|will) (?:take|go|do|bear|give|squish|stand|offer|be pressed(?: in)?)))+$"
+    r"(?:can|could|may|will) (?:take|go|do|bear|give|squish|stand|offer|be pressed(?: in)?)|"
+    r"(?:that )?(?:they|you|we|i|he|she) (?:set|gave|told|allowed|agreed on)(?: (?:you|me|us|"
+    r"it))?))+$"
 )
 _NUMBER = re.compile(
     rf"(?:(?:depth|force|area|mass|load|grip|weight|squeeze|clamp) of )?(#\d+)(?: "

@@ -87,8 +87,15 @@ def named_or_none(asked: AskedWords) -> str | None:
 
 _OFFERED_NONE = re.compile(
     r"\b(?P<said>none(?: of (?:these|those|them|the (?:above|lot|#\d+)))?|neither(?: of (?:these|"
-    rf"those|them|both))?|(?:something|anything) (?:else|different|other)|some other {_KIND}|"
+    rf"those|them|both|(?:the )?#\d+))?|(?:something|anything) (?:else|different|other)|"
+    rf"some other {_KIND}|"
     rf"(?:another|a different) {_KIND})\b"
+)
+_IF_NONE = re.compile(
+    r"\bif (?:it|they|both|all|that)\b(?: \w+){0,6}? (?:say|answer|call it|reply) (?=\|)"
+)
+_LIKE = re.compile(
+    r" like an? [a-z]+(?: [a-z]+(?=(?: or)? ?\|))?|\bon (?=(?:an?|the)\b)|(?<=or) on(?= ?\|)"
 )
 _OF_OTHERS = re.compile(
     r"#|\b(?:not|than|force|forces|newtons?|mm|depth|deep|deeper|limit|band|mass|weighs?|grams?|"
@@ -113,11 +120,12 @@ def loosely_named(question: str) -> Calculated | None:
     out = _OFFERED_NONE.search(asked.words)
     if out is None:
         return None
-    if graded := _graded(asked.words, out["said"]):
+    words = _IF_NONE.sub(" ", f"{asked.words[: out.start()]}|{asked.words[out.end() :]}")
+    if graded := _graded(words, out["said"]):
         return graded
-    if _OF_OTHERS.search(asked.words):
+    if _OF_OTHERS.search(words):
         return None
-    runs = _runs(f"{asked.words[: out.start()]}|{asked.words[out.end() :]}")
+    runs = _runs(_LIKE.sub("", words))
     lists = [run for run in runs if len(run) > 1]
     dimension = _dimension(lists[-1], asked.words) if lists else None
     offered = [{means.get(dimension or "") for _, means in each} for each in lists]

@@ -128,7 +128,9 @@ _UNKNOWN: Mapping[str, str] = {
         r"caption|what does it say|expiry date)\b"
     ),
     "past": (
-        r"\b(?:who|which of (?:my|our|your|the|these|those|them) ?\w*|(?:did|has|have|was it|"
+        r"\b(?:which [a-z]+ (?:put|placed|left|dropped|brought|gave|picked|packed) (?:it|this|that|"
+        r"the)|"
+        r"who|which of (?:my|our|your|the|these|those|them) ?\w*|(?:did|has|have|was it|"
         r"does) (?:my|your|his|her|our|the|some|any)? ?(?:sister|brother|mother|mum|mom|dad|father|"
         r"wife|husband|boss|kids?|child(?:ren)?|son|daughter|neighbou?rs?|customer|colleagues?|"
         r"aunt|uncle|grandma|grandpa|granny|friend|team|somebody|someone|anybody|anyone|dog|cat|"

@@ -161,7 +161,7 @@ _ONLY_ONE = re.compile(
     r"not both)",
     re.I,
 )
-_NONE_OFFERED = re.compile(r"\bor (?:is it |maybe |perhaps )?(?:neither|none)\b", re.I)
+_NONE_OFFERED = re.compile(r"\bor (?:is it |maybe |perhaps |on |in )?(?:neither|none)\b", re.I)
 _OFFERED = re.compile(r"== '[\w -]+' or ")
 _OFFERS = re.compile(r"\w+,? (?:or|and) (?!more\b|less\b|above\b|over\b|below\b|under\b)", re.I)
 _EITHER = re.compile(r"\b(?:either|neither|nor|one of|any of|whichever|and)\b", re.I)

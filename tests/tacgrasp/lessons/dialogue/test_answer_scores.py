@@ -105,6 +105,20 @@ def test_a_truth_may_be_stated_in_the_unit_that_is_asked_for():
     assert right("1.9 mm", "number", "10 * depth_mm")
 
 
+@pytest.mark.parametrize(
+    ("text", "truth"),
+    [
+        ("0.0075 in.", "depth_mm / 25.4"),
+        ("7.5 thou.", "depth_mm / 25.4 * 1000"),
+        ("0.19 mm.", "depth_mm"),
+        ("0.187 lbf.", "force_n / 4.4482"),
+        ("85 g.", "force_n / 9.81 * 1000"),
+    ],
+)
+def test_a_truth_may_be_in_units_that_are_no_power_of_ten(text, truth):
+    assert right(text, "number", truth)
+
+
 def test_loads_lengths_and_pressures_are_told_by_their_truths():
     assert right("63 g", "number", "limit_n / gram_n")  # 1.3 N
     assert not right("63 N", "number", "limit_n / gram_n")

@@ -183,6 +183,8 @@ def test_what_is_no_list_and_no_verdict_is_left(question):
         ("Is that my bracket you're gripping or Marta's?", "unknown owner."),
         ("Which of my kids broke this?", "unknown past."),
         ("tulip bulb or daffodil bulb, I mixed up the bags", "unknown name."),
+        ("Has the lander's battery still got more than sixty percent?", "unknown electricity."),
+        ("How much sugar has it got per 100 g?", "unknown inside."),
         ("Write a Python function that reverses a linked list.", "other."),
         ("Book me a table for two at eight.", "other."),
     ],
@@ -198,6 +200,7 @@ def test_what_touch_cannot_know_of_peoples_things(question, query):
         "Is it soft and ripe?",
         "How old is the universe?",
         "Write the force down.",
+        "Is the force more than a battery weighs?",
     ],
 )
 def test_what_may_be_felt_or_is_of_no_thing_is_none_of_these(question):
