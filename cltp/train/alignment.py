@@ -16,6 +16,7 @@ from torch import Tensor, nn
 
 from cltp.checkpoints.manifest import MANIFEST, manifest_digest
 from cltp.checkpoints.tac3d_llm import load_clip, load_encoder, save_encoder
+from cltp.data.prefetch import prefetched
 from cltp.data.sampler import Augmentation, Batch, Sampler
 from cltp.encoder.encoder import EncoderConfig, TactileEncoder
 from cltp.encoder.force_head import ForceHead
@@ -25,7 +26,6 @@ from cltp.errors import TouchError
 from cltp.train.calibration import calibrate_heads, fit_force
 from cltp.train.clip_feature_cache import FrozenFeatures
 from cltp.train.finite_check import check_batch
-from cltp.train.prefetch import prefetched
 from cltp.train.recipes import CLTP_SCHEDULE, CltpRecipe, Schedule
 from cltp.train.stage import Stage, TrainingRun
 from cltp.train.text_targets import TextTargets, draw_texts, matches_of_all, prompt_terms

@@ -26,6 +26,7 @@ from torch import Tensor, nn
 from cltp.checkpoints.frozen import noisy_frames, save_frozen
 from cltp.checkpoints.tac3d_llm import load_clip
 from cltp.data.dataset import ContactDataset
+from cltp.data.prefetch import prefetched
 from cltp.data.sampler import Augmentation, Batch, Sampler
 from cltp.encoder.all_gather import gathered
 from cltp.encoder.clip_towers import Towers
@@ -36,7 +37,6 @@ from cltp.encoder.masked_modelling import PointBert, PointMae, ShapeWords, patch
 from cltp.errors import TouchError
 from cltp.train.finite_check import check_batch
 from cltp.train.methods import ALIGNED_METHODS, IMAGE_METHODS, TRAINING_ORDER
-from cltp.train.prefetch import prefetched
 from cltp.train.recipes import Schedule
 from cltp.train.stage import Stage, TrainingRun
 

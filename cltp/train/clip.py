@@ -20,13 +20,13 @@ from transformers import CLIPModel
 
 from cltp.checkpoints.manifest import MANIFEST
 from cltp.checkpoints.tac3d_llm import save_pretrained
+from cltp.data.prefetch import prefetched
 from cltp.data.sampler import Augmentation, Sampler
 from cltp.encoder.clip_towers import image_features, small_clip, text_features
 from cltp.encoder.losses import CltpLoss
 from cltp.tactile.states import CLASSES
 from cltp.texts.tokenizer import Words
 from cltp.train.clip_feature_cache import rendered
-from cltp.train.prefetch import prefetched
 from cltp.train.recipes import CLIP_SCHEDULE, ClipRecipe, Schedule
 from cltp.train.stage import Stage, TrainingRun
 from cltp.train.text_targets import TextTargets, draw_texts, matches, matches_of_all, prompt_terms

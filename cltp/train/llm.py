@@ -37,6 +37,7 @@ from cltp.checkpoints.tac3d_llm import (
 )
 from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset
+from cltp.data.prefetch import prefetched
 from cltp.data.sampler import Augmentation, Batch, Sampler
 from cltp.encoder.encoder import Encoded
 from cltp.encoder.readings import HeadReadings, readings_of
@@ -49,7 +50,6 @@ from cltp.tactile.states import CLASSES, ContactState
 from cltp.texts.exchange_packing import Exchange, ExchangeTokens, Packed, pack
 from cltp.texts.tokenizer import Words
 from cltp.texts.told import ToldContact
-from cltp.train.prefetch import prefetched
 from cltp.train.recipes import Schedule
 from cltp.train.stage import Stage, TrainingRun
 

@@ -24,8 +24,8 @@ from torch.nn import functional
 
 from cltp.atomic_write import write_atomically
 from cltp.checkpoints.stored_classifier import save_classifier
+from cltp.data.prefetch import prefetched
 from cltp.texts.text_classifier import ClassifierConfig, TextClassifier, WordBatch
-from cltp.train.prefetch import prefetched
 from cltp.train.progress import Bar
 from cltp.train.recipes import Schedule
 from cltp.train.stage import Stage, TrainingRun

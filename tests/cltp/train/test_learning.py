@@ -19,6 +19,7 @@ from cltp.checkpoints.tac3d_llm import (
 )
 from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset
+from cltp.data.prefetch import prefetched
 from cltp.data.sampler import CLEAN, NOISY, Augmentation, Sampler, mirrored
 from cltp.encoder.class_token import (
     HeightQuantiles,
@@ -49,7 +50,6 @@ from cltp.texts.told import ToldContact
 from cltp.train.alignment import train_cltp
 from cltp.train.clip import train_clip
 from cltp.train.llm import train_llm, train_words
-from cltp.train.prefetch import prefetched
 from cltp.train.recipes import Schedule
 from cltp.train.stage import Stage, TrainingRun
 from tests.fakes.fake_contacts import fake_contact, write_contacts

@@ -12,6 +12,6 @@ said in the question's words all the same (``own_words``).
 Not here: which of two terms is greater or nearer, where they are named so
 (``tacgrasp.lessons.dialogue.calculations.choices``).
 
-May import: tacgrasp.lessons.dialogue, tacgrasp.lessons.dialogue.calculations,
+May import: cltp.tactile, tacgrasp.lessons.dialogue, tacgrasp.lessons.dialogue.calculations,
 tacgrasp.lessons.dialogue.families.classes.
 """
