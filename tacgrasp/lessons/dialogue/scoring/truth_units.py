@@ -71,7 +71,10 @@ def scale_of(truth: Expression) -> float:
 def _factor(truth: Expression) -> float:
     """What the first quantity of a sum is multiplied with; 0 where that is no number."""
     zeros = dict.fromkeys(truth.names, 0.0)
-    values = [truth.evaluate(each).value for each in (zeros, {**zeros, truth.names[0]: 1.0})]
+    try:
+        values = [truth.evaluate(each).value for each in (zeros, {**zeros, truth.names[0]: 1.0})]
+    except ValueError:  # it compares a word
+        return 0.0
     low, high = (value if isinstance(value, float) else math.nan for value in values)
     return 0.0 if math.isnan(high - low) else high - low
 

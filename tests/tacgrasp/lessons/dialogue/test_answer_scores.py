@@ -2,9 +2,11 @@
 
 import pytest
 
+from tacgrasp.lessons.dialogue.expression import Expression
 from tacgrasp.lessons.dialogue.scoring.answer_reading import read_answer
 from tacgrasp.lessons.dialogue.scoring.answer_scores import score_answer
 from tacgrasp.lessons.dialogue.scoring.question_file import question_row
+from tacgrasp.lessons.dialogue.scoring.truth_units import scale_of
 from tests.fakes.question_scenes import ASIDE, FREE, HELD, UNTOUCHED
 
 
@@ -117,6 +119,12 @@ def test_a_truth_may_be_stated_in_the_unit_that_is_asked_for():
 )
 def test_a_truth_may_be_in_units_that_are_no_power_of_ten(text, truth):
     assert right(text, "number", truth)
+
+
+def test_a_word_beside_a_number_has_no_unit():
+    truth = Expression("depth == 'deep' and x_mm < 0")
+
+    assert scale_of(truth) == 1.0
 
 
 def test_loads_lengths_and_pressures_are_told_by_their_truths():
