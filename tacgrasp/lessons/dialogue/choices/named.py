@@ -103,11 +103,13 @@ _OF_OTHERS = re.compile(
 )
 """What a question with named classes says of something else."""
 
-
 _GRADES: Mapping[str, re.Pattern[str]] = {
     name: re.compile(rf"\b(?:{'|'.join(sorted(CLASSES[name], key=len, reverse=True))})\b")
     for name in ("depth", "area")
 }
+"""Words for the depth and for the area, 'very deep' before 'deep'."""
+
+_GRADED = {"deep", "depth", "area"}
 _OF_SIZE = {"depth": r"\b(?:area|patch|footprint|print)\b", "area": r"\b(?:depth|press|dent)\b"}
 
 
@@ -139,8 +141,8 @@ def loosely_named(question: str) -> Calculated | None:
 
 def _graded(words: str, none: str) -> Calculated | None:
     """A choice between words for the depth, or for the area, and none of them."""
-    others = _OF_OTHERS.sub(lambda found: found[0] if found[0] not in _GRADED else "", words)
-    if _OF_OTHERS.search(others) or " or " not in words:
+    others = {found[0] for found in _OF_OTHERS.finditer(words)} - _GRADED
+    if others or " or " not in words:
         return None
     for name, pattern in _GRADES.items():
         said = list(dict.fromkeys(pattern.findall(words)))
@@ -151,7 +153,9 @@ def _graded(words: str, none: str) -> Calculated | None:
     return None
 
 
-_GRADED = ("deep", "depth", "area")
+def _classes(word: str) -> Mapping[str, str]:
+    """The class that a word names in each dimension where it names one."""
+    return {each.dimension: each.classes[0] for each in named(word) if len(each.classes) == 1}
 
 
 def _runs(words: str) -> Sequence[Sequence[NamedClass]]:
@@ -159,9 +163,7 @@ def _runs(words: str) -> Sequence[Sequence[NamedClass]]:
     runs: list[list[NamedClass]] = []
     last = -1
     for match in words_pattern().finditer(words):
-        means = {
-            each.dimension: each.classes[0] for each in named(match[1]) if len(each.classes) == 1
-        }
+        means = _classes(match[1])
         if means and last >= 0 and _JOINT.fullmatch(words[last : match.start()]):
             runs[-1].append((match[1], means))
         elif means:
@@ -178,9 +180,7 @@ def _listed(words: str, end: int) -> tuple[Sequence[NamedClass], int]:
     listed: list[NamedClass] = []
     last = 0
     for match in words_pattern().finditer(words, 0, end):
-        means = {
-            each.dimension: each.classes[0] for each in named(match[1]) if len(each.classes) == 1
-        }
+        means = _classes(match[1])
         if not means or (listed and not _JOINT.fullmatch(words[last : match.start()])):
             return (), 0
         listed.append((match[1], means))
