@@ -111,8 +111,9 @@ _NUMBERED_RULE = re.compile(r"(?<=\w) [A-Z]{1,4}-?\d+(?:\.\d+)*\b(?! ?(?:N|mN|mm
 
 _ON_SOMETHING = re.compile(r" (?:on|for|with) (?:(?:this|that|the|such|my|our|an?) )?[a-z]+$")
 _SHARE_OF_LIMIT = re.compile(
-    r"(?:.* )?#1 percent of (?:(?:the|its|our|your|that) )?(?:(?:maximum|hard|force|allowed|"
-    r"permitted|allowable) )*(?:limit|ceiling|cap|maximum|force)(?: .*)?"
+    r"(?:.* )?#1 percent of (?:(?:the|its|our|your|that) )?(?:(?:force )?(?:limit|ceiling|cap)|"
+    r"(?:maximum|max)(?: (?:allowed|permitted|allowable))?(?: force)?|"
+    r"(?:allowed|permitted|allowable) (?:maximum|force))(?: .*)?"
 )
 
 

@@ -184,15 +184,16 @@ _TOPICS = re.compile(
 
 
 _OF_ANOTHER = re.compile(
-    r"(?:(?:hey|so|and|now|please|robot|say|tell me) )*(?:(?:is|are|was|has|have|does|will|"
-    r"how (?:much|many|high|full|low)|what is|what are|"
-    r"what would)\b )(?:[\w']+ ){0,4}?(?:(?P<inside>"
-    r"sugar|calories|vitamins?|protein|cholesterol|caffeine|salt|fat|acid\w*|ph|water)|"
-    r"(?P<electricity>"
-    r"batter(?:y|ies)|battery's|charger|fuse)|(?P<trait>blood pressure|heart rate|pulse rate|"
-    r"cholesterol|"
-    r"fever)|(?P<price>per kilo(?:gram)? .*(?:market|town|shop|store)|market price|salary|wage))\b"
-    r"(?!.* than (?:a|an|the|that)\b).*"
+    r"(?:(?:hey|so|and|now|please|robot|say|tell me) )*(?:"
+    r"(?P<inside>how (?:much|many) (?:sugar|calories|vitamins?|protein|cholesterol|caffeine|salt|"
+    r"fat|"
+    r"acid\w*|water)\b.*|what is the (?:ph|(?:sugar|salt|fat|water) content)\b.*)|"
+    r"(?P<electricity>(?:is|has|does|will|how (?:full|low)) [^#]*?\bbatter(?:y|ies)(?: \w+){0,3}? "
+    r"(?:low|full|empty|flat|charged?|dead|left|life|level|holding|last|percent|got)\b.*)|"
+    r"(?P<trait>(?:is|what is|how (?:high|low) is) [^#]*?\b(?:blood pressure|heart rate|"
+    r"pulse rate)\b.*)|"
+    r"(?P<price>(?:what|how much) [^#]*?\bper kilo(?:gram)? .*\b(?:market|town|shop|store)\b.*|"
+    r"(?:what is|how high is) the (?:market price|salary|wage)\b.*))"
 )
 """What has a number, but none of touch: 'how much sugar has it got per 100 g?'."""
 

@@ -201,6 +201,8 @@ def test_what_touch_cannot_know_of_peoples_things(question, query):
         "How old is the universe?",
         "Write the force down.",
         "Is the force more than a battery weighs?",
+        "Is the water bottle touched?",
+        "Is the battery pack pressed deeper than 1 mm?",
     ],
 )
 def test_what_may_be_felt_or_is_of_no_thing_is_none_of_these(question):
