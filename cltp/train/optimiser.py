@@ -28,10 +28,9 @@ class Optimiser:
     """
 
     def __init__(self, model: nn.Module, schedule: Schedule) -> None:
-        self._trained = [p for p in model.parameters() if p.requires_grad]
         layers = list(_layer_weights(model)) if schedule.optimiser == "muon" else []
         taken = set(map(id, layers))
-        others = [p for p in self._trained if id(p) not in taken]
+        others = [p for p in model.parameters() if p.requires_grad and id(p) not in taken]
         matrices = [p for p in others if p.ndim > 1]
         vectors = [p for p in others if p.ndim <= 1]
         decays = ((matrices, schedule.weight_decay), (vectors, 0.0))
@@ -49,11 +48,6 @@ class Optimiser:
                     adjust_lr_fn="match_rms_adamw",
                 )
             )
-
-    def clear(self) -> None:
-        """Forget the gradients."""
-        for parameter in self._trained:
-            parameter.grad = None
 
     def step(self, rate: float) -> None:
         """Move all parameters by their gradients, at learning rate ``rate``."""

@@ -161,7 +161,7 @@ class Stage:
                     f"{self.name}: the loss became {float(total.detach())} in step {self.step}; "
                     "lower the learning rate or look at the data"
                 )
-            self._optimiser.clear()
+            self.model.zero_grad(set_to_none=True)
             total.backward()
             averaged_gradients(self._parameters)
             nn.utils.clip_grad_norm_(self._parameters, self.schedule.largest_gradient)

@@ -37,7 +37,7 @@ def _learned(schedule: Schedule, steps: int = 1) -> tuple[_Model, _Model]:
     optimiser = Optimiser(model, schedule)
     pixels = torch.randn(4, 3, 6, 6, generator=torch.Generator().manual_seed(1))
     for _ in range(steps):
-        optimiser.clear()
+        model.zero_grad(set_to_none=True)
         model(pixels).square().mean().backward()
         optimiser.step(1e-2)
     return before, model
@@ -91,7 +91,7 @@ def test_an_optimiser_goes_on_where_another_one_stopped(schedule: Schedule) -> N
             state = copy.deepcopy(optimiser.state())
             optimiser = Optimiser(model, schedule)
             optimiser.restore(state)
-        optimiser.clear()
+        model.zero_grad(set_to_none=True)
         model(pixels).square().mean().backward()
         optimiser.step(1e-2)
 

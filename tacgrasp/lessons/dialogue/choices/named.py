@@ -123,23 +123,27 @@ def loosely_named(question: str) -> Calculated | None:
     if out is None:
         return None
     words = _IF_NONE.sub(" ", f"{asked.words[: out.start()]}|{asked.words[out.end() :]}")
-    if graded := _graded(words, out["said"]):
-        return graded
+    if truth := _graded(words, out["said"]) or _named(words, asked.words, out["said"]):
+        return Calculated(truth=truth, unit=None)
+    return None
+
+
+def _named(words: str, whole: str, none: str) -> str | None:
+    """A choice between named shapes, or textures, and none of them."""
     if _OF_OTHERS.search(words):
         return None
     runs = _runs(_LIKE.sub("", words))
     lists = [run for run in runs if len(run) > 1]
-    dimension = _dimension(lists[-1], asked.words) if lists else None
+    dimension = _dimension(lists[-1], whole) if lists else None
     offered = [{means.get(dimension or "") for _, means in each} for each in lists]
     if dimension is None or any(each != offered[-1] for each in offered):
         return None
     listed = lists[-1]
     cases = [(word, f"{dimension} == '{means[dimension]}'") for word, means in listed]
-    truth = choice_of(*cases, (out["said"].split(" of the #")[0], ""))
-    return None if truth is None else Calculated(truth=truth, unit=None)
+    return choice_of(*cases, (none.split(" of the #")[0], ""))
 
 
-def _graded(words: str, none: str) -> Calculated | None:
+def _graded(words: str, none: str) -> str | None:
     """A choice between words for the depth, or for the area, and none of them."""
     others = {found[0] for found in _OF_OTHERS.finditer(words)} - _GRADED
     if others or " or " not in words:
@@ -148,8 +152,7 @@ def _graded(words: str, none: str) -> Calculated | None:
         said = list(dict.fromkeys(pattern.findall(words)))
         if len(said) > 1 and not re.search(_OF_SIZE[name], words):
             cases = [(word, f"{name} == '{word}'") for word in said]
-            truth = choice_of(*cases, (none, ""))
-            return None if truth is None else Calculated(truth=truth, unit=None)
+            return choice_of(*cases, (none, ""))
     return None
 
 

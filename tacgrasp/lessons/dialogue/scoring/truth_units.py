@@ -59,8 +59,7 @@ def scale_of(truth: Expression) -> float:
     if not any(map(_is_gravity, truth.numbers)):
         sizes = [1 / unit.size for unit in UNITS.values() if unit.dimension == dimension]
         named = (size for size in sizes if math.isclose(factor, size, rel_tol=1e-3))
-        is_power = math.isclose(truth.power_of_ten, factor, rel_tol=1e-3)
-        return truth.power_of_ten if is_power else next(named, truth.power_of_ten)
+        return next(named, truth.power_of_ten)
     if factor <= 0:
         return 1.0
     own = 1 / GRAVITY_N_PER_G if dimension == "mass" else GRAVITY_N_PER_G
