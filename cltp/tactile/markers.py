@@ -35,6 +35,7 @@ from cltp.tactile.cloud import (
 )
 from cltp.tactile.sensor_noise import NoiseUnit
 from cltp.tactile.sensors import SensorSpec
+from cltp.threads import one_blas_thread
 
 
 def marker_positions_mm(sensor: SensorSpec) -> FloatArray:
@@ -111,6 +112,7 @@ def densified(
     return dataclasses.replace(cloud, points_mm=points)
 
 
+@one_blas_thread()
 def interpolated(
     cloud: TactileCloud,
     x_mm: FloatArray,

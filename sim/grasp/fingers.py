@@ -24,7 +24,7 @@ import torch
 
 from cltp.tactile.cloud import FloatArray, grid_axes_mm
 from cltp.tactile.sensors import SensorSpec
-from cltp.torch_threads import torch_threads
+from cltp.threads import torch_threads
 from sim.gel.layer import ElasticLayer, GelMaterial
 from sim.gel.shear.coarse import CoarseShear
 from sim.grasp.bodies import Body

@@ -17,7 +17,7 @@ from torch import Tensor
 
 from cltp.tactile.cloud import FloatArray, Stamp
 from cltp.tactile.shear.field import ShearField
-from cltp.torch_threads import torch_threads
+from cltp.threads import torch_threads
 from sim.gel.shear.layer import Shear
 from sim.gel.shear.load import carry
 from sim.gel.shear.sensed import shear_field

@@ -7,7 +7,7 @@ import torch
 from numpy.typing import NDArray
 
 from cltp.sensing.ball_presses import ProfileTable
-from cltp.torch_threads import torch_threads
+from cltp.threads import torch_threads
 from sim.gel.layer import ElasticLayer, Press, gel_of
 
 PITCH_MM = 0.1

@@ -18,7 +18,7 @@ from cltp.tactile.sensor_noise import NoiseUnit, spread_of
 from cltp.tactile.sensors import SensorSpec, sensor_named
 from cltp.tactile.states import ContactState, Shape, Texture
 from cltp.texts.captions import caption, numeric_caption
-from cltp.torch_threads import torch_threads
+from cltp.threads import torch_threads
 from sim.gel.fine.fine import FineLayer
 from sim.gel.gap import NO_BODY_MM
 from sim.gel.layer import ElasticLayer, Press, gel_of

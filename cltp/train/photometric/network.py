@@ -9,7 +9,7 @@ import torch
 from torch import Tensor, nn
 
 from cltp.sensing.photometric import GradientNet
-from cltp.torch_threads import torch_threads
+from cltp.threads import torch_threads
 
 HIDDEN = 32
 

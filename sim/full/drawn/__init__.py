@@ -2,5 +2,5 @@
 
 Not here: pose, press and labels of an object (``sim.full``).
 
-May import: cltp.tactile, sim.gel.
+May import: cltp, cltp.tactile, sim.gel.
 """

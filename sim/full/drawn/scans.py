@@ -19,6 +19,7 @@ from scipy.interpolate import LinearNDInterpolator
 from scipy.ndimage import gaussian_filter, map_coordinates
 
 from cltp.tactile.cloud import FloatArray
+from cltp.threads import one_blas_thread
 from sim.full.drawn.surface import Draws, Surface
 from sim.gel.gap import NO_BODY_MM
 
@@ -52,7 +53,8 @@ def scanned(surface: Surface, draws: Draws, window: Window) -> Surface:
     mesh = LinearNDInterpolator(points, height, fill_value=NO_BODY_MM)
 
     def behind(u: FloatArray, v: FloatArray) -> FloatArray:
-        hit = mesh(u, v)
+        with one_blas_thread():
+            hit = mesh(u, v)
         return np.where(hit < 0.95 * floor_mm, hit, NO_BODY_MM)
 
     return replace(surface, behind_mm=behind)

@@ -23,7 +23,7 @@ from cltp.tactile.cloud import cloud_of_pixels
 from cltp.tactile.encoder_input import encoder_input
 from cltp.tactile.point_layout import EVEN, PointLayout
 from cltp.tactile.sensors import SENSORS
-from cltp.torch_threads import torch_threads
+from cltp.threads import torch_threads
 from tacgrasp.base.errors import UsageError
 from tacgrasp.benchmarks.figures import number_table, times_ms, write_figures
 from tacgrasp.benchmarks.learning.plain_pointbert import PlainPointBert

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from torch import Tensor
 
 from cltp.tactile.sensors import sensor_named
-from cltp.torch_threads import torch_threads
+from cltp.threads import torch_threads
 from sim.gel.layer import ElasticLayer, gel_of
 from sim.gel.shear.coarse import FACTOR, LOOP_TOL, CoarseShear
 from sim.gel.shear.layer import Shear, ShearLayer

@@ -31,7 +31,7 @@ from cltp.evaluation.zero_shot import ClassPrompts
 from cltp.tactile.point_layout import PointLayout
 from cltp.tactile.sensors import sensor_named
 from cltp.tactile.states import CLASSES
-from cltp.torch_threads import torch_threads
+from cltp.threads import torch_threads
 from cltp.train.text_targets import class_numbers
 from sim.independent.noise import disturbed
 from tacgrasp.base.errors import UsageError

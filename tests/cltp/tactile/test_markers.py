@@ -1,16 +1,19 @@
 """A sensor that tracks markers: sparse clouds, and 1024 points on the surface through them."""
 
 import dataclasses
+from typing import ClassVar
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.interpolate import LinearNDInterpolator
+from threadpoolctl import threadpool_info
 
 from cltp.errors import TouchError
 from cltp.tactile.cloud import NUM_POINTS, TactileCloud, grid_axes_mm
 from cltp.tactile.encoder_input import encoder_input, lattice_points
-from cltp.tactile.markers import densified, marker_cloud, marker_positions_mm
+from cltp.tactile.markers import densified, interpolated, marker_cloud, marker_positions_mm
 from cltp.tactile.sensor_noise import NoiseUnit, spread_of
 from cltp.tactile.sensors import SENSORS
 
@@ -115,3 +118,22 @@ def test_what_can_t_be_tracked_is_refused():
 def test_no_noise_is_known_of_a_sensor_that_nobody_described():
     with pytest.raises(TouchError, match="gelsight_mini"):
         spread_of(dataclasses.replace(STEREO, name="skin"))
+
+
+def test_triangles_are_solved_on_one_thread_and_others_keep_theirs():
+    def blas_threads():
+        return [each["num_threads"] for each in threadpool_info() if each["user_api"] == "blas"]
+
+    class Watching(LinearNDInterpolator):
+        seen: ClassVar[list[int]] = []
+
+        def __call__(self, *positions):
+            self.seen.extend(blas_threads())
+            return super().__call__(*positions)
+
+    cloud = marker_cloud(np.zeros((60, 80)), SENSORS["gelstereo"])
+    before = blas_threads()
+    interpolated(cloud, np.zeros(3), np.zeros(3), Watching)
+    assert len(Watching.seen) >= 2  # numpy and scipy have a library each
+    assert set(Watching.seen) == {1}
+    assert blas_threads() == before

@@ -7,7 +7,7 @@ import pytest
 import torch
 
 from cltp.tactile.sensors import SENSORS, sensor_named
-from cltp.torch_threads import torch_threads
+from cltp.threads import torch_threads
 from sim.gel import contact_solver, layer
 from sim.gel.layer import gel_of
 from sim.grasp.bodies import draw_body
