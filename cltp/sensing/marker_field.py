@@ -26,6 +26,7 @@ from cltp.tactile.sensors import SensorSpec
 from cltp.tactile.shear.contact_shape import grid_of
 from cltp.tactile.shear.field import ShearField
 from cltp.tactile.shear.noise import MIN_POINTS
+from cltp.threads import one_blas_thread
 
 MARGIN_PX, RING_PX = 2.0, 3.0
 """How far beyond a dot's radius it is painted over, and the width of the ring about that from
@@ -203,6 +204,7 @@ def coarse_frame(frame: Frame) -> Frame:
     return np.asarray((both + COARSE**2 // 2) // COARSE**2, dtype=np.uint8)
 
 
+@one_blas_thread()
 def _weights(dots: NDArray[np.float64], points: NDArray[np.float64]) -> NDArray[np.float64]:
     """Weights (M, N) of the dots at some points: linear between three; beyond, of the nearest."""
     mesh = Delaunay(dots)
