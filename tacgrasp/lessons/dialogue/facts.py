@@ -53,7 +53,7 @@ UNMEASURED: Mapping[str, str] = {
 }
 """What is missing where a name has no value; other names are not felt."""
 
-UNTOUCHED_NAMES = {*UNMEASURED, "contact", "gram_n"}
+UNTOUCHED_NAMES = {*UNMEASURED, "contact", "gram_n", "pad_width_mm", "pad_height_mm"}
 """Names that have a meaning where nothing touches."""
 
 FACT_OF: Mapping[str, str] = {

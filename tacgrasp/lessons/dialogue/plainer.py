@@ -126,6 +126,9 @@ _AS_REFERENCE = re.compile(
 )
 """'Taking 0.4 mm as the dividing line, is it above that?'"""
 
+_NUMERO = re.compile(r"(?<=\w )no\.(?= (?:of|on|from)\b|\s*\?*$)", re.I)
+"""'Serial no. of the part'."""
+
 _IN_UNIT = re.compile(r"\bin [a-zµ²%]+\b|\bhow many\b", re.I)
 _NUMBER = r"(?<![\d.,])(\d+(?:\.\d+)?)"
 _FOREIGN = (
@@ -166,7 +169,7 @@ def is_denied_first(question: str) -> bool:
 
 def plainer(question: str) -> str:
     """A question without address, thanks and tag, and without the denial that expects 'yes'."""
-    text = metric(" ".join(question.split()))
+    text = _NUMERO.sub("number", metric(" ".join(question.split())))
     if opening := _ADDRESS.match(text):
         text = text[opening.end() :]
     text = _ADDED.sub("", _POLITE_VERB.sub("", text, count=1))

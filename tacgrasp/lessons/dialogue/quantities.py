@@ -41,6 +41,7 @@ UNITS: Mapping[str, Unit] = {
         Unit(symbol="mm", dimension="length", size=1.0),
         Unit(symbol="µm", dimension="length", size=1e-3),
         Unit(symbol="cm", dimension="length", size=10.0),
+        Unit(symbol="nm", dimension="length", size=1e-6),
         Unit(symbol="N", dimension="force", size=1.0),
         Unit(symbol="mN", dimension="force", size=1e-3),
         Unit(symbol="cN", dimension="force", size=1e-2),

@@ -73,7 +73,12 @@ class AskedScene:
 
     def values(self) -> Mapping[str, Value]:
         """Values by name; lengths in mm, forces in N, masses in g, the area in percent."""
-        return {**self._felt(), **self._agreed(), "gram_n": HOLDING_N_PER_G}
+        known = {
+            "gram_n": HOLDING_N_PER_G,
+            "pad_width_mm": self.sensor.width_mm,
+            "pad_height_mm": self.sensor.height_mm,
+        }
+        return {**self._felt(), **self._agreed(), **known}
 
     def _felt(self) -> dict[str, Value]:
         state = self.state

@@ -33,6 +33,7 @@ _BEHIND_NUMBER = re.compile(
 _GIVEN_UNIT = re.compile(r"#(\d)(?: (?:\+-|-) #(\d))? ([^\s.;]+)")
 _FOREIGN: Mapping[str, tuple[str, ...]] = {
     r"m|met(?:re|er)s?": ("m",),
+    r"nm|nanomet(?:re|er)s?": ("nm",),
     r"inch(?:es)?": ("in",),
     r"thou|mils?": ("thou",),
     r"kn|kilonewtons?": ("kN",),

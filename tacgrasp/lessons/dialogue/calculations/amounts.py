@@ -12,6 +12,7 @@ import re
 from collections.abc import Callable
 
 from tacgrasp.lessons.dialogue.calculations.asked import AskedWords, usual, usual_unit
+from tacgrasp.lessons.dialogue.calculations.borders import to_border
 from tacgrasp.lessons.dialogue.calculations.differences import (
     apart,
     from_point,
@@ -22,7 +23,13 @@ from tacgrasp.lessons.dialogue.calculations.differences import (
 from tacgrasp.lessons.dialogue.calculations.footprints import circle, pressure
 from tacgrasp.lessons.dialogue.calculations.loads import load, needed, safety_factor
 from tacgrasp.lessons.dialogue.calculations.scales import on_scale
-from tacgrasp.lessons.dialogue.calculations.shares import ratio, share, unused, whole_share
+from tacgrasp.lessons.dialogue.calculations.shares import (
+    ratio,
+    share,
+    stiffness,
+    unused,
+    whole_share,
+)
 from tacgrasp.lessons.dialogue.calculations.terms import PLAIN, UNSAID, Term, in_mm2, in_newtons
 from tacgrasp.lessons.dialogue.meaning import Calculated
 from tacgrasp.lessons.dialogue.quantities import GRAVITY_N_PER_G, UNITS
@@ -58,8 +65,9 @@ _ALONE = re.compile(
 def calculated_amount(asked: AskedWords) -> Calculated | None:
     """The number that a question asks to calculate; None where it asks for none."""
     readers: tuple[Callable[[AskedWords], Term | None], ...] = (
-        pressure, circle, on_scale, safety_factor, needed, load, unused, share, ratio, missing,
-        apart, taken, from_point, whole_share, into_band, _counted, _weight, _stood_at, _alone,
+        to_border, pressure, stiffness, circle, on_scale, safety_factor, needed, load, unused,
+        share, ratio, missing, apart, taken, from_point, whole_share, into_band, _counted, _weight,
+        _stood_at, _alone,
     )  # fmt: skip
     for reader in readers:
         if (term := reader(asked)) and (amount := amount_of(term, asked)):

@@ -49,7 +49,7 @@ _CLAIMED = re.compile(
     r"^(?:(?:true or false|yes or no|right or wrong|(?:confirm|verify|check)(?: for me)?"
     r"(?: (?:that|whether|if))?|(?:is it|would it be|am i) (?:true|correct|right|fair|so|the case)"
     r"(?: (?:that|to say(?: that)?|in (?:saying|thinking)(?: that)?))?|"
-    r"(?:would|can|could|do) (?:you|i|we) (?:say|agree|confirm|think)(?: that)?|"
+    r"(?:would|can|could|do) (?:you|i|we|one) (?:say|agree|confirm|think|claim)(?: that)?|"
     r"i (?:take it|believe|assume|guess|think)(?: that)?) )+"
     r"(?!(?:is|are|does|do|has|have|would|will|can|could)\b)"
 )
@@ -96,7 +96,9 @@ _ANSWERED = re.compile(
     r"[a-z]+(?: [a-z]+)?(?: or [a-z]+(?: [a-z]+)?)+$"
 )
 _TAKING_G = re.compile(
-    r" (?:use|take|taking|with|using) (?:g )?(?:as |of )?#\d+(?: m \S+)?(?: (?:for|as) g)?$"
+    r" (?:use|take|taking|with|using) (?:g )?(?:as |of )?#\d+(?: m \S+(?: #\d+)?)?(?: (?:for|"
+    r"as) g)?"
+    r"(?= name (?:that|the) number$|$)"
 )
 _ONE_MORE = re.compile(
     rf"\b(?:one (?:more|extra|additional|further)|(?:another|an extra|a further)(?: more)?) "
@@ -125,7 +127,10 @@ _GIVEN_MASS = re.compile(
     r" (?:going by|given|from|by) the (?:mass|weight) (?:(?:that )?(?:i|we|you|it)\b.*|(?:given|"
     r"stated|told))$"
 )
-_REMARK = re.compile(r" (?:i|we) need (?:it|this|that|them) .*$| whichever (?:is|one is) \w+$")
+_REMARK = re.compile(
+    r" one way or (?:the other|another)\b| name (?:that|the) number$| (?:i|we) need (?:it|this|"
+    r"that|them) .*$| whichever (?:is|one is) \w+$"
+)
 _AMOUNT_OF = re.compile(
     r"^(?:by )?(?:what|which) (?:amount|distance)\b|^what(?: is|"
     r" are)?(?= (?:still )?(?:missing|lacking|left)\b)"
@@ -153,6 +158,7 @@ _SIGNED = re.compile(
     r"(?:figure|value|number|sign)(?: would| will)? means? .+$| with (?:a |the )?sign$"
 )
 _UNSIGNED = re.compile(
+    r" (?:leaving|putting|setting) (?:the )?signs? aside$|"
     r"^(?:ignoring|without|regardless of|disregarding|leaving out|dropping) "
     r"(?:the |its )?(?:sign|direction) | (?:ignoring|without|regardless of|disregarding|no matter) "
     r"(?:the |its )?(?:sign|direction|which(?: is \w+)?|whether .+)$|"

@@ -10,6 +10,7 @@ Not here: suppositions (``tacgrasp.lessons.dialogue.calculations.suppositions``)
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 
 from tacgrasp.lessons.dialogue.calculations.asked import AskedWords, usual
 from tacgrasp.lessons.dialogue.calculations.phrases import EXCEEDS, MOVES, REACHES
@@ -37,7 +38,11 @@ _COMPARED = tuple(
             r"not below|not "
             r"under|no smaller than",
         ),
-        ("<=", r"at most|no more than|not more than|not above|not over|no larger than"),
+        (
+            "<=",
+            r"fits? (?:inside|within|into|in)|at most|no more than|not more than|not above|"
+            r"not over|no larger than",
+        ),
         (
             ">",
             r"(?:more|greater|larger|higher|bigger|heavier|deeper|stronger|further|"
@@ -55,8 +60,8 @@ _NEARER = re.compile(
     rf"(?:to |it is to )?(?P<c>.+)"
 )
 _PUSHED = re.compile(
-    r"(?:we|you|i|it|the gripper)(?: are| is)? (?:push|press|squeez|gripp?)(?:ing|es|e|"
-    r"ed)?(?: on it)? (?:harder|more) than"
+    r"(?:we|you|i|it|the gripper)(?: are| is)? (?:(?:push|press|squeez|gripp?)(?:ing|es|e|"
+    r"ed)?(?: on it)? (?:harder|more)|(?:us|spend|tak)(?:ing|es?|en)(?: up)? more) than"
 )
 _AMOUNT = r"(?:(?P<more>more than|over)|(?P<fewer>less than|under)|at least)"
 _SIDES = (
@@ -88,8 +93,10 @@ _BETWEEN = re.compile(
 _IN_BAND = re.compile(
     rf"(?P<a>.+?)(?: {_ADVERB})*(?: {_BE})?(?: {_ADVERB})* (?:(?P<out>outside(?: of)?|out of|"
     rf"leav\w+)|"
-    r"within|inside|into|in) (?:the |our |this |my |your )?(?:\w+ ){0,2}(?:band|range|window|goal|"
-    r"target|zone)"
+    r"within|inside|into|in) (?:(?:the |our |this |my |your )?(?:\w+ ){0,2}(?:band|range|window|"
+    r"goal|"
+    r"target|zone)|what (?:was|is|were|we|has been) (?:agreed|asked for|wanted|settled)(?: on|"
+    r" upon)?)"
 )
 _ANY = re.compile(
     r"(?:either one|at least one|one of (?:them|these|the two)|"
@@ -102,6 +109,12 @@ _ONE_OF = re.compile(
     rf"(?=.+? and .+? (?:{_VERB} )?(?:more|less|above|over|below|under|"
     r"greater|larger|smaller|exceed))"
 )
+_USED_UP = re.compile(
+    r"(?P<sign>more than|over|less than|under|at least|at most) (?P<b>.+?)(?: (?:been|be|got))? "
+    r"(?:used(?: up)?|spent|taken(?: up)?|consumed|exhausted|gone|reached)(?: already| by now|"
+    r" now)?"
+)
+_SIGN_OF = {"more than": ">", "over": ">", "at least": ">=", "at most": "<="}
 _JOINT = re.compile(r" (and|or) ")
 _BARE = re.compile(
     r"(?:pressed|pushed|squeezed|held|gripped|touched) with "
@@ -124,6 +137,15 @@ _AFFORDED = re.compile(
     r"(?:another |an extra )?(?P<b>#\d+ \w+)(?: (?:more|extra|further|of (?:force|grip)|on top))* "
     r"(?:before|until) (?:(?:i|we|it) (?:hit|reach|hits|reaches) |hitting |reaching )?(?:the )?"
     r"(?:force )?(?:limit|cap|ceiling)(?: (?:trips|bites|is (?:hit|reached|met)|kicks in))?"
+)
+_PILED = re.compile(
+    r"(?P<b>#\d+ \w+)(?: (?:more|extra))*(?: (?:be|get|of (?:force|grip)))* (?:piled|put|added|"
+    r"heaped|"
+    r"stacked|loaded|laid)(?: on)?(?: (?:on )?(?:top|it|to it|to this))? "
+    r"(?:without|before|and (?:we |it )?(?:still )?(?:not|never)) (?:going|getting|go|exceeding|"
+    r"passing|"
+    r"crossing|breaking|hitting|exceed|pass|overstepping)(?: (?:past|over|above|beyond|through))? "
+    r"(?:the )?(?:force )?(?:limit|cap|ceiling)"
 )
 _ROOM = re.compile(
     r"(?:there|we|i|you|it)(?: (?:still|be|is|have|has|got|any|enough|left))* "
@@ -163,7 +185,11 @@ def condition_of(asked: AskedWords, words: str) -> str | None:
         pair = alike(left, rest) if rest else None
         sign = ">" if found["more"] else "<"
         return f"{pair[0].expression} {sign} {pair[1].factor}" if pair else None
-    found = _ROOM.fullmatch(words) or _AFFORDED.fullmatch(words)
+    if found := _USED_UP.fullmatch(words):
+        bound = asked.term(found["b"])
+        if bound and bound.dimension == "force" and bound.has_quantity:
+            return f"force_n {_SIGN_OF.get(found['sign'], '<')} {bound.factor}"
+    found = next(filter(None, (each.fullmatch(words) for each in (_ROOM, _AFFORDED, _PILED))), None)
     if found and (pair := asked.pair("the limit", found["b"])):
         return f"{pair[0].expression} - force_n >= {pair[1].factor}"
     if found := _SIDE_OF.fullmatch(words):
@@ -294,4 +320,14 @@ def _subject_of(words: str) -> str:
 def _pair(asked: AskedWords, a: str, b: str, *, is_above: bool = True) -> tuple[Term, Term] | None:
     """Two terms in one dimension, at least one of which is more than a number."""
     pair = asked.pair(a, b, is_above=is_above)
-    return pair if pair and any(term.has_quantity for term in pair) else None
+    if pair is None or not any(term.has_quantity for term in pair):
+        return None
+    if not asked.is_unsigned:
+        return pair
+    return _unsigned(pair[0]), _unsigned(pair[1])
+
+
+def _unsigned(term: Term) -> Term:
+    if not term.has_quantity:
+        return term
+    return replace(term, expression=f"abs({term.expression})", is_sum=False)

@@ -37,6 +37,10 @@ _WHICH_NEARER = re.compile(
     r"(?:which|what)(?: of (?:these|them|the two))? (?:is|are|does|do) (?P<a>.+?) "
     r"(?:nearer|closer)(?: to)? (?P<b>.+) or(?: to)? (?P<c>.+)"
 )
+_NAMED_NEARER = re.compile(
+    r"(?P<b>.+?) or (?P<c>.+?) (?:to )?which(?: (?:one|of (?:these|them|the two|those)))? "
+    r"(?:is|are|does|do) (?P<a>.+?)(?: (?:come|lie|be|sit|stand|get))? (?:nearer|closer)(?: to)?"
+)
 _WHICH_END = re.compile(
     r"(?:to )?(?:which|what) (?:edge|end|side|bound|limit|border) of (?:the |our )?(?P<band>.+?) "
     r"(?:is|are|does|do) (?P<a>.+?)(?: (?:sit|lie))? (?:nearer|"
@@ -130,7 +134,8 @@ def _which(asked: AskedWords) -> Calculated | None:
 
 
 def _nearer(asked: AskedWords) -> Calculated | None:
-    found = _WHICH_NEARER.fullmatch(asked.words) or _NEARER.fullmatch(asked.words)
+    patterns = (_WHICH_NEARER, _NAMED_NEARER, _NEARER)
+    found = next(filter(None, (each.fullmatch(asked.words) for each in patterns)), None)
     if found is None:
         return None
     b, c = shared_noun(asked, found["b"], found["c"])

@@ -19,7 +19,7 @@ from tacgrasp.lessons.dialogue.calculations.terms import Term
 _APART = r"(?:away|apart|off)? ?from|off|differs? from|deviates? from"
 _GET = (
     r"(?:(?: and)?(?: then)? (?:how much|what)(?: .+)?|"
-    r",? (?:and )?(?:give|tell|show|state|say)(?: .+)?)?"
+    r",? (?:and )?(?:give|tell|show|state|say|report|let (?:me|us)|hand)(?: .+)?)?"
 )
 _MISSING = re.compile(
     r"how much(?: more| further)?(?: (?:is|are|do we|does it|would it))?(?: still)? "
@@ -29,7 +29,8 @@ _MISSING = re.compile(
     r")?(?:reach(?:ing)? )?(?P<b>.+)"
 )
 _FURTHER = re.compile(
-    r"how (?:much|far)(?: (?:more|further|deeper|harder|extra|additional|force|grip|squeeze|"
+    r"(?:by )?how (?:much|far)(?: (?:more|further|deeper|harder|extra|additional|force|grip|"
+    r"squeeze|"
     r"of [a-z]+))* "
     r"(?:(?:i|we|you|it) )?(?:would|must|does|do|can|could|may|should|will|has|have|need) "
     r"(?:(?!than)(?!without)[a-z]+ )+?(?:to (?:reach|get to|arrive at|hit|be at|come to|get up to|"
@@ -109,7 +110,7 @@ _BEYOND = re.compile(
 _ADDED = tuple(
     re.compile(pattern)
     for pattern in (
-        rf"add (?P<b>.+?) (?:to|and) (?P<a>.+?){_GET}",
+        rf"add (?P<b>.+?) (?:to|and) (?P<a>.+?)(?: together| up)?{_GET}",
         r"(?:what|how much) (?:do|would) (?:you|we|i) (?:get|have) (?:if|when) (?:you|we|i) "
         r"add (?P<b>.+) (?:to|and) (?P<a>.+)",
     )

@@ -41,7 +41,7 @@ _OF_FORM = (
 )
 _PRESSURE = re.compile(
     r"\b(?:pressure|stress|force (?:per|divided by|over|spread|shared|distributed)|"
-    r"(?:divide|dividing|spread|spreading|distribute|distributing)\b.*\bforce)\b"
+    r"(?:divide|dividing|spread|spreading|distribute|distributing)\b.*\b(?:force|push|squeeze))\b"
 )
 _IS_MEAN = re.compile(
     r"\b(?:mean|average|averaged|divid\w+|spread\w*|over|per|distribut\w+|shared|uniform\w*|"
@@ -58,7 +58,8 @@ _OF_PRESSURE = (
     r"distribute|distributed|distributing|shared|uniform|uniformly|evenly|even|all|whole|entire|"
     r"resulting|exerted|applied|express|expressed|assuming|my|our|its|object|equally|"
     r"press|presses|pressing|push|pushes|with|figure|value|put|take|result|results|tell|me|"
-    r"fingertip|finger|as)"
+    r"fingertip|finger|as|want|need|touching|experiences?|sees?|feels?|undergoes|undergo|bears?|"
+    r"footprint|sense|sensed)"
 )
 
 

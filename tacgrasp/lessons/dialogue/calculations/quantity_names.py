@@ -73,7 +73,9 @@ _NAMED: Mapping[str, tuple[str, str]] = {
     rf"(?:normal |contact |grip |gripping |grasp |pressing |squeezing |pinch |clamping |clamp |"
     rf"holding |squeeze )*(?:force|squeeze|push|pressure|grip|pinch|press|clamp|clench|grasp)"
     rf"{_ON}|(?:grip|force|squeeze) (?:strength|level|reading)|clamping|squeezing|"
-    r"(?:force |what )?(?:that )?(?:you|we) (?:feel|press|apply|measure)(?: with)?|force felt": (
+    r"(?:force |what )?(?:that )?(?:you|we)(?: are)? (?:feel|press|apply|measur|sens|exert)(?:e|"
+    r"ing)?"
+    r"(?: with)?(?: at present| now)?|force felt": (
         "force_n", "force",
     ),
     rf"(?:{_LIMIT})(?: {_NEVER})?": ("limit_n", "force"),
@@ -97,9 +99,10 @@ _NAMED: Mapping[str, tuple[str, str]] = {
     r"(?:free|untouched|uncovered) (?:part|share|portion|area|rest)(?: of (?:the )?pad)?": (
         "100 - area_percent", "fraction",
     ),
-    r"x(?: (?:offset|coordinate|value|position|component|displacement))?|(?:horizontal|sideways|"
+    r"x(?: (?:offset|coordinates?|value|position|component|displacement))?|(?:horizontal|sideways|"
     r"lateral) (?:offset|position|displacement|coordinate)|contact's x": ("x_mm", "length"),
-    r"y(?: (?:offset|coordinate|value|position|component|displacement))?|(?:vertical|lengthwise) "
+    r"y(?: (?:offset|coordinates?|value|position|component|displacement))?|(?:vertical|lengthwise|"
+    r"up down|up and down) "
     r"(?:offset|position|displacement|coordinate)|contact's y": ("y_mm", "length"),
     rf"(?:radial )?(?:distance|offset)(?: of (?:the )?(?:contact|{_THING}))? (?:from|to) "
     r"(?:the )?(?:pad )?(?:middle|center)(?: of (?:the )?pad)?": ("hypot(x_mm, y_mm)", "length"),
@@ -144,6 +147,7 @@ _UNIT_WORDS: Mapping[str, str] = {
     **SPELLED,
     r"percentage points?|points?|per cent": "%",
     r"cm²|(?:square|sq) (?:cm|centimet(?:re|er)s?)": "cm²",
+    r"nm|nanomet(?:re|er)s?": "nm",
     r"decimillimetres|dmm": "dmm",
     r"centimillimetres|cmm": "cmm",
     r"decinewtons|dn": "dN",

@@ -56,7 +56,7 @@ _RATIOS = tuple(
         r"(?:what is |the )*(?P<a>[a-z]+) to (?P<b>[a-z]+) ratio",
         r"(?:[a-z]+ ){0,3}?(?:as |is )?(?P<a>force|depth|area) (?:over|divided by) (?P<b>(?:the )?"
         r"(?:indentation |contact )?(?:depth|area|force))",
-        r"(?P<a>.+?) (?:is|are) how many times (?P<b>.+)",
+        r"(?P<a>.+?) (?:is|are) how many times (?:as \w+ as |the size of )?(?P<b>.+)",
         r"how many times (?P<b>the .+?) (?:is|are) (?P<a>.+)",
         r"how many times (?P<b>(?:its|the|their) .+?) (?:is|are|do|does) (?P<a>(?:we|you|i|it|"
         r"the (?:gripper|robot|hand)) (?:squeez\w+|press\w*|gripp?\w*|hold\w*|pinch\w*))"
@@ -90,6 +90,19 @@ _THICK = re.compile(
     r"(?:if|suppose|assuming|say|given) (?:the|this|our) (?:gel|pad|skin) (?:is|were|was) "
     r"(?P<b>#\d+ \w+) thick (?:what|how many|"
     rf"which) {PARTS} of (?:it|that|the (?:thickness|gel))\b.*"
+)
+_STIFFNESS = re.compile(
+    r"(?:(?:give|tell|state|what|is|are|me|how|many|the|that|work|find|now|please) )*"
+    r"(?:n|newtons?) per (?:mm|millimet(?:re|er)s?) of (?:indentation|depth|dent|penetration|"
+    r"travel)"
+    r"(?: (?:do|does|is|are|we|you|it|there|work|that|ratio|out|figure|from|what|sense|feel|get|"
+    r"have|now|here|by|going|please|at|present))*"
+)
+_OF_PARTS = re.compile(
+    r"(?:out )?of (?:every|each) (?P<n>#\d+) (?:parts?|cells?|points?|squares?|bits?) of (?:the )?"
+    r"(?:sensing (?:surface|area)|pad|sensor|gel)(?: roughly| about| approximately)? how many "
+    r"(?:are |is |of them are |do )?(?:being |you )?(?:covered|touched|pressed|in contact|feel)"
+    r"(?: (?:right now|now|at present))?"
 )
 _COVERED = re.compile(r"how much of (?:the )?pad is (?:touched|covered|pressed|in contact)")
 
@@ -145,8 +158,19 @@ def unused(asked: AskedWords) -> Term | None:
     return Term(expression=share, dimension="fraction", words="", is_sum=True)
 
 
+def stiffness(asked: AskedWords) -> Term | None:
+    """The force over the depth."""
+    if _STIFFNESS.fullmatch(asked.words) is None:
+        return None
+    return Term(expression="force_n / depth_mm", dimension="N/mm", words="")
+
+
 def whole_share(asked: AskedWords) -> Term | None:
     """The touched part of the pad as a plain number, and the depth over a gel's named thickness."""
+    parts = _OF_PARTS.fullmatch(asked.words)
+    if parts and (count := asked.term(parts["n"])):
+        expression = f"{count.expression} * area_percent / 100"
+        return Term(expression=expression, dimension=PLAIN, words="")
     if asked.is_ratio and _COVERED.fullmatch(asked.words):
         return Term(expression="area_percent / 100", dimension=PLAIN, words="")
     found = _THICK.fullmatch(asked.words)

@@ -71,7 +71,7 @@ class Term:
 
 
 _MULTIPLES: Mapping[str, str] = {
-    r"(?:one )?half|half of": "0.5",
+    r"(?:one )?half|half of|half ?way(?: (?:mark|point|line))?(?: (?:to|towards?|up to))?": "0.5",
     r"twice|double|two times": "2",
     r"thrice|triple|three times": "3",
     r"four times|quadruple": "4",
@@ -88,7 +88,8 @@ _ARTICLE = re.compile(
     r"value of|amount of|level of|figure for|reading of|contact's|object's|of) )+(?=\S)"
 )
 _TRAILING = re.compile(
-    r"(?: (?:from here|right now|just now|now|currently|presently|at present|at the moment|here|"
+    r"(?: (?:from here|right now|just now|now|at (?:this|the present) moment|currently|presently|"
+    r"at present|at the moment|here|"
     r"instead|today|itself|as felt|as measured|in size|value|figure|reading|"
     r"on (?:the )?(?:pad|gel)|(?:that )?(?:you|we|i)(?: are| am)? "
     r"(?:feel|have|read|see|press|apply|measur|us|squeez|exert)(?:e|"

@@ -16,6 +16,7 @@ from collections.abc import Callable, Sequence
 from tacgrasp.lessons.dialogue.calculations.asked import AskedWords, asked_words
 from tacgrasp.lessons.dialogue.calculations.terms import Term
 from tacgrasp.lessons.dialogue.choices import scales
+from tacgrasp.lessons.dialogue.choices.bins import binned
 from tacgrasp.lessons.dialogue.choices.conditions import (
     band_part,
     choice_of,
@@ -69,6 +70,8 @@ _NO_CHOICE = re.compile(
 def chosen(question: str) -> Calculated | None:
     """What a question means that names alternatives; None where it says something else too."""
     asked = asked_words(spelled(question))
+    if truth := binned(asked):
+        return chosen_by(truth, question)
     if truth := named_or_none(asked):
         return chosen_by(truth, question)
     if " or " not in f" {asked.words} " or is_one_way(asked.words):

@@ -23,7 +23,7 @@ _OPENING = re.compile(
     r"(?: (?:is|are|was|does|do|it|that|this|they|we|rather|instead|more|on|in|at|to|of|by|as|with|"
     r"towards?|the|a|an|its|our|am|i|still|already|just|only|mostly|mainly|chiefly|largely|primarily|maybe|perhaps|should|"
     r"must|shall|nearer|closer|further|farther|off|force|being|be|too|along|if|from|"
-    r"will|would|can|could|might|"
+    r"will|would|can|could|might|under|"
     r"#\d+|percent|mm|n|g|millimetres?|newtons?|grams?|and))* ?"
 )
 """What may stand between 'or' and the alternative behind it."""

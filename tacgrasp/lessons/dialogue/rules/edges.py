@@ -63,7 +63,9 @@ _OPEN = re.compile(
 )
 _MOVES = re.compile(r"\b(?:should|shall|must|move|shift|go|because|if)\b")
 _COMPARED = re.compile(r"\b(?:nearer|closer|farther|further|rather)\b.*\bthan\b")
-_NO_PAD = re.compile(r"\b(?:band|range|window|corridor|target|goal|force|limit|squeeze)\b")
+_NO_PAD = re.compile(
+    r"\b(?:band|range|window|corridor|target|goal|force|limit|squeeze|cap|newtons?|grams?)\b"
+)
 _ASKS_WHICH = re.compile(r"\b(?:which|what)\b")
 _ALL = re.compile(r"\b(?:both|at once|at the same time|and|as well as|plus)\b")
 _OR_BOTH = re.compile(r"\b(?:or|and) (?:perhaps |maybe |even |possibly )?(?:at )?both\b")

@@ -55,6 +55,18 @@ NUMBERS = [
     ("Suppose another 0.3 N came on top: what would it be?", "force_n + 0.3", "N"),
     ("If the object slid 2 mm to the right, what would x be?", "x_mm + 2", "mm"),
     ("What is the ratio of force to depth, in N/mm?", "force_n / depth_mm", "N/mm"),
+    ("Newtons per millimetre of indentation, please.", "force_n / depth_mm", "N/mm"),
+    ("How far is the contact from the right edge?", "pad_width_mm / 2 - x_mm", "mm"),
+    (
+        "The pad is 20.3 mm wide. How many millimetres lie between the touch point and the "
+        "left-hand border?",
+        "pad_width_mm / 2 + x_mm",
+        "mm",
+    ),
+    ("How much clearance is there to the top rim of the pad?", "pad_height_mm / 2 - y_mm", "mm"),
+    ("How high is the pad?", "pad_height_mm", "mm"),
+    ("The limit is how many times as big as the force?", "limit_n / force_n", ""),
+    ("Of every hundred parts of the pad, how many are touched?", "100 * area_percent / 100", ""),
     ("Force divided by the weight of the object?", "force_n / (0.00980665 * mass_g)", ""),
     ("If the gel were 4 mm thick, what percentage of it is pressed in?", "100 * depth_mm / 4", "%"),
     (
@@ -117,6 +129,22 @@ CHECKS = [
     ),
     ("If it slid 3 mm to the left, would it be left of the middle?", "x_mm - 3 < 0"),
     ("Can I add another newton without exceeding the limit?", "force_n + 1 <= limit_n"),
+    ("Is it more than 5 mm away from the lower edge?", "pad_height_mm / 2 + y_mm > 5"),
+    (
+        "Do fewer than three millimetres remain from the contact to the left border?",
+        "pad_width_mm / 2 + x_mm < 3",
+    ),
+    ("Are we past the halfway mark to the limit?", "force_n > 0.5 * limit_n"),
+    ("Does the patch fit inside ten percent of the sensing area?", "area_percent <= 0.1 * 100"),
+    ("Is x smaller than y, leaving signs aside?", "abs(x_mm) < abs(y_mm)"),
+    (
+        "Could another newton be piled on top without going past the cap?",
+        "limit_n - force_n >= 1",
+    ),
+    (
+        "Isn't the force, one way or the other, outside of what was agreed?",
+        "not (band_low_n <= force_n <= band_high_n)",
+    ),
     (
         "Is it true that neither the force exceeds 2 N nor the depth exceeds 1 mm?",
         "not (force_n > 2) and not (depth_mm > 1)",
@@ -135,6 +163,10 @@ CHOICES = [
         "'1 N' if abs(force_n - 1) < abs(force_n - 2) else '2 N'",
     ),
     ("Over or under 4 N?", "'over' if force_n > 4 else 'under'"),
+    (
+        "One newton or five newtons: to which of these is the force closer?",
+        "'1 N' if abs(force_n - 1) < abs(force_n - 5) else '5 N'",
+    ),
     (
         "To get into the band, should I loosen, hold or tighten?",
         "'tighten' if force_n < band_low_n else 'loosen' if force_n > band_high_n else 'hold'",
@@ -184,6 +216,8 @@ def test_a_choice_is_calculated_as_it_is_asked(question, truth):
         "Is 2 more than 1?",
         "Subtract 2 N from 5 N.",
         "How far is the moon from the earth?",
+        "How far over the left edge does it hang?",
+        "How close is it to the edge?",
         "Is the depth more than the force?",
         "Which is greater, 2 N or 1 N?",
         "If the depth doubled, what would the force be?",

@@ -25,6 +25,27 @@ SIDES = [
     ("Within the limit or over it?", "Within: the force is 0.83 N and the limit is 1.30 N."),
     ("Contact below 5 % of the pad, or 5 % and above?", "Above: the contact area is 12 %."),
 ]
+BINS = [
+    (
+        "Sort the indentation: 'light' up to 0.5 mm, 'medium' up to 1 mm, 'heavy' beyond that.",
+        "Light: the depth is 0.19 mm.",
+    ),
+    (
+        "If anything under 2 N is gentle and the rest is firm, which one fits the grip?",
+        "Gentle: the force is 0.83 N.",
+    ),
+    (
+        "Classify the load as low (less than 0.5 N), mid (0.5 to 3 N) or high (over 3 N).",
+        "Mid: the force is 0.83 N.",
+    ),
+    (
+        "In our shop, parts of 200 g and up are 'big' and everything else is 'small'; which is it?",
+        "Small: the mass is 25 g.",
+    ),
+    ("We call it light below 500 mN, otherwise heavy. What is it?", "Heavy: the force is 0.83 N."),
+    ("A squeeze under 0.5 N is weak, over 2 N strong. Which?", "Neither: the force is 0.83 N."),
+    ("Taking 0.1 mm as the dividing line, is it deep or shallow?", "Deep: the depth is 0.19 mm."),
+]
 STEPS = [
     (
         "To bring the grip to 3 N exactly, must I tighten or loosen?",
@@ -92,7 +113,7 @@ PLACES = [
     ("Upper half or lower half of the pad, where is it?", "Lower: y is -1.2 mm."),
     ("To get back to the middle, must the part move left or right?", "Left: x is +0.8 mm."),
 ]
-ALL = [row for rows in (SIDES, STEPS, STATES, NAMED, CENTER, RANGES, PLACES) for row in rows]
+ALL = [row for rows in (SIDES, BINS, STEPS, STATES, NAMED, CENTER, RANGES, PLACES) for row in rows]
 
 
 @pytest.mark.parametrize(("question", "text"), ALL)

@@ -1,0 +1,238 @@
+"""Questions that say for which values each of their own words stands.
+
+    Call it light below 1 N, medium up to 3 N, else heavy.   'light' if force_n < 1 else ...
+    If anything under 2 N is gentle and the rest firm, which one is it?
+    With 0.8 mm as the dividing line, is it deep or shallow?
+
+A value that none of the words stands for is neither.
+
+Not here: words of a scale without values of their own (``tacgrasp.lessons.dialogue.choices``).
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+from tacgrasp.lessons.dialogue.calculations.asked import AskedWords, usual, usual_unit
+from tacgrasp.lessons.dialogue.calculations.quantity_names import UNIT
+from tacgrasp.lessons.dialogue.calculations.terms import UNSAID, Term, alike
+from tacgrasp.lessons.dialogue.choices.conditions import NEITHER, choice_of
+from tacgrasp.lessons.dialogue.expression import Expression
+
+_BELOW = (
+    r"under|below|less than|smaller than|lower than|lighter than|beneath|fewer than|"
+    r"shallower than|short of"
+)
+_UP_TO = r"up to(?: and including)?|at most|no more than|not more than|not above|until|till"
+_ABOVE = (
+    r"over|above|more than|greater than|beyond|past|exceeding|higher than|larger than|deeper than|"
+    r"heavier than|in excess of"
+)
+_FROM = r"from|at least|no less than|upwards? of|starting (?:at|from)"
+_HEAD = (
+    r"(?:(?:for|if|when|where|is|are|being|means?|meaning|as|at|with|with|anything|everything|"
+    r"all|whatever|what|it|that|they|of|values?|forces?|depths?|areas?|masses|weights?|readings?|"
+    r"parts?|things?|objects?|items?|pieces?|grips?|dents?|prints?|patches|presses|contacts?) )*?"
+)
+_REST = (
+    r"(?:(?:anything|everything|all|whatever is|what is|any|something) )?(?:(?:beyond|above|over|"
+    r"below|under|less than|more than) (?:that|this|it)|otherwise|else|(?:any )?more(?: than that)?"
+    r"|less(?: than that)?|(?:the )?(?:rest|remainder|others?)|in between|between(?: (?:those|them|"
+    r"these))?|remaining|beyond|above|below|"
+    r"higher|lower|deeper|heavier|lighter|larger|smaller)(?: (?:that|it))?"
+)
+_VALUES = (
+    rf"{_HEAD}(?:(?P<below>{_BELOW}) (?P<b>#\d+)(?: (?P<b_unit>{UNIT}))?|"
+    rf"(?P<upto>{_UP_TO}) (?P<t>#\d+)(?: (?P<t_unit>{UNIT}))?|"
+    rf"(?:between |from )?(?P<low>#\d+)(?: (?P<low_unit>{UNIT}))? (?:(?:to|and|through|up to) )?"
+    rf"(?P<high>#\d+)(?: (?P<high_unit>{UNIT}))?|"
+    rf"(?P<m>#\d+)(?: (?P<m_unit>{UNIT}))?(?: of (?:the )?pad)? (?:and|or) "
+    r"(?:(?P<up>up|upwards?|more|above|over|beyond|heavier|deeper|larger|higher)|"
+    r"(?:less|below|under|down|lighter|smaller|lower))|"
+    rf"(?P<above>{_ABOVE}) (?P<a>#\d+)(?: (?P<a_unit>{UNIT}))?|"
+    rf"(?P<from>{_FROM}) (?P<f>#\d+)(?: (?P<f_unit>{UNIT}))?|"
+    rf"(?P<rest>{_REST}))(?: of (?:the )?pad)?"
+)
+_NO_LABEL = (
+    r"(?!(?:and|or|but|the|a|an|is|are|am|it|its|of|for|if|as|that|this|to|be|we|i|you|me|us|with|"
+    r"call|calls|called|counts?|means?|makes?|gives?|anything|everything|all|whatever|what|which|"
+    r"then|so|do|does|now|in|on|at|by|not|no|one|rest|otherwise|else|more|less|than|pad|n|mm|g|"
+    r"force|depth|area|mass|grip|dent|press|weight)\b)"
+)
+_LABEL = rf"(?:the |an? )?(?P<label>{_NO_LABEL}[a-z][a-z'-]*(?: (?:right|enough))?)"
+_LABEL_FIRST = re.compile(rf"{_LABEL} {_VALUES}(?= |$)")
+_VALUES_FIRST = re.compile(
+    rf"(?:(?:and|then|but) )?{_VALUES} (?:(?:(?:it|that|this|they|we|i) )?(?:is|are|be|being|as|"
+    rf"counts? as|means?|makes?|gives?|say|(?:is|are) (?:called|named|counted as)|"
+    rf"calls?(?: (?:it|that|them))?|goes (?:as|down as|under)) )?{_LABEL}(?= |$)"
+)
+_OTHERS = re.compile(rf"{_VALUES} {_LABEL}(?= |$)")
+_JOINT = re.compile(r" (?:(?:and|or|but|then) )*")
+_OTHER = re.compile(
+    r"\b(?:if|not|never|how|why|limit|band|headroom|margin|offset|center|middle|distance|edge|x|y|"
+    r"ratio|squared?|than|minus|plus|times|texture|shape|next)\b|#"
+)
+_OF_FORCE = re.compile(r"\b(?:force|grip\w*|press\w*|squeez\w*|push\w*|load|pinch\w*|clamp\w*)\b")
+_DIVIDED = re.compile(
+    rf"(?:(?:taking|with|using|use|take|if|say|given|let|have|our|the|dividing line|cut off|"
+    rf"cutoff|threshold|line|boundary|is|be|at) )*(?P<n>#\d+ (?:{UNIT})) "
+    r"(?:(?:as|is|being|for|be|to be|marks?|forms?|separates?|divides?) )?"
+    r"(?:(?:the|a|an|our|my) )?(?:dividing line|divide|threshold|cut off|cutoff|boundary|"
+    r"border|line|mark|split|watershed|borderline|limit between .+? and \w+?)"
+    r"(?: between .+? and \w+)? (?P<rest>.+)"
+)
+_MORE_WORDS = (
+    r"(?:deep|heavy|firm|strong|large|big|high|hard|tight|broad|wide|much|powerful|great|thick|"
+    r"coarse|fat|massive|bold|considerable)"
+)
+_LESS_WORDS = (
+    r"(?:shallow|light|gentle|weak|small|little|low|soft|loose|narrow|slight|faint|feeble|thin|"
+    r"tiny|mild|delicate|modest|superficial)"
+)
+_EITHER = re.compile(
+    rf"\b(?:(?P<a>{_MORE_WORDS}) or (?:rather )?(?P<b>{_LESS_WORDS})|"
+    rf"(?P<c>{_LESS_WORDS}) or (?:rather )?(?P<d>{_MORE_WORDS}))\b"
+)
+
+
+@dataclass(frozen=True, slots=True)
+class _Bin:
+    """A word, with the least and the largest value that it stands for; all others without these."""
+
+    label: str
+    low: float | None = None
+    high: float | None = None
+    has_low: bool = True
+    has_high: bool = True
+
+    def condition(self, value: str) -> str:
+        """Whether it stands for the value of an expression; '' where it stands for all others."""
+        low, high = (None if end is None else f"{end:g}" for end in (self.low, self.high))
+        if low and high:
+            return f"{low} <= {value} <= {high}"
+        if low:
+            return f"{value} {'>=' if self.has_low else '>'} {low}"
+        return f"{value} {'<=' if self.has_high else '<'} {high}" if high else ""
+
+    def has(self, value: float) -> bool:
+        """Whether it stands for a value that is none of its ends."""
+        above = self.low is None or value > self.low
+        return above and (self.high is None or value < self.high)
+
+
+def binned(asked: AskedWords) -> str | None:
+    """The word that a question's own values choose; None where it gives none."""
+    if truth := _divided(asked):
+        return truth
+    starts = [match.start() for match in re.finditer(r"(?<![^ ])(?=[a-z#])", asked.words)]
+    rows = [
+        _row(asked.words, pattern, start)
+        for pattern in (_LABEL_FIRST, _VALUES_FIRST)
+        for start in starts
+    ]
+    row = max(rows, key=len, default=())
+    return _chosen(asked, row) if len(row) > 1 else None
+
+
+def _row(words: str, pattern: re.Pattern[str], start: int) -> Sequence[re.Match[str]]:
+    """Bins that stand one behind the other."""
+    found: list[re.Match[str]] = []
+    while match := pattern.match(words, start) or (found and _OTHERS.match(words, start)):
+        found.append(match)
+        if (joint := _JOINT.match(words, match.end())) is None:
+            break
+        start = joint.end()
+    return found
+
+
+def _chosen(asked: AskedWords, found: Sequence[re.Match[str]]) -> str | None:
+    before, after = asked.words[: found[0].start()], asked.words[found[-1].end() :]
+    if _OTHER.search(re.sub(r"\bif\s*$", "", before)) or _OTHER.search(after):
+        return None
+    ends = [_ends(asked, match) for match in found]
+    named = next((term for each in ends for term in each if term and term.unit), None)
+    subject = _subject(named, f"{before} {after}") if named else None
+    if named is None or subject is None:
+        return None
+    bins = [_bin(match, each, named, subject) for match, each in zip(found, ends, strict=True)]
+    sized = [each for each in bins if each and (each.low is not None or each.high is not None)]
+    others = [each.label for each in bins if each and each not in sized]
+    if None in bins or not sized or len(others) > 1:
+        return None
+    cases = [(each.label, each.condition(subject.expression)) for each in sized]
+    if others or not _covers(sized):
+        return choice_of(*cases, (others[0] if others else NEITHER, ""))
+    return choice_of(*cases)
+
+
+def _ends(asked: AskedWords, match: re.Match[str]) -> tuple[Term | None, Term | None]:
+    """The numbers of a bin; of a range two."""
+
+    def read(number: str) -> Term | None:
+        words = " ".join(filter(None, (match[number], match[f"{number}_unit"])))
+        return asked.term(words) if words else None
+
+    first = next((name for name in ("b", "t", "m", "a", "f", "low") if match[name]), "")
+    return (read(first) if first else None), read("high")
+
+
+def _bin(
+    match: re.Match[str], ends: tuple[Term | None, Term | None], named: Term, subject: Term
+) -> _Bin | None:
+    """A word with its values in the unit of the subject; None where these do not fit it."""
+    if match["rest"]:
+        return _Bin(match["label"])
+    values = [_value(end, named, subject) for end in ends if end is not None]
+    if None in values or not values:
+        return None
+    if match["low"]:
+        return _Bin(match["label"], *values) if len(values) == 2 else None
+    is_above = bool(match["a"] or match["f"] or match["up"])
+    has_end = not (match["b"] or match["a"])
+    if is_above:
+        return _Bin(match["label"], low=values[0], has_low=has_end)
+    return _Bin(match["label"], high=values[0], has_high=has_end)
+
+
+def _value(end: Term, named: Term, subject: Term) -> float | None:
+    """A number in the unit of the subject; a bare one has the unit that is named beside others."""
+    both = alike(end, named) if end.dimension == UNSAID else (end, named)
+    pair = alike(both[0], subject) if both else None
+    if pair is None or pair[1].expression != subject.expression:
+        return None
+    value = Expression(pair[0].expression).evaluate({}).value
+    return None if value is None or isinstance(value, bool | str) else float(value)
+
+
+def _subject(named: Term, around: str) -> Term | None:
+    """What the values are of, by their unit and by the words around."""
+    if named.dimension == "area":
+        return Term(expression="area_mm2", dimension="area", words="it")
+    if named.dimension == "mass" and _OF_FORCE.search(around):
+        return usual("force")
+    return usual(named.dimension) if usual_unit(named.dimension) else None
+
+
+def _covers(bins: Sequence[_Bin]) -> bool:
+    """Whether every value has a word."""
+    ends = sorted({end for one in bins for end in (one.low, one.high) if end is not None})
+    between = [(a + b) / 2 for a, b in pairwise(ends)]
+    return all(any(one.has(v) for one in bins) for v in (ends[0] - 1, *between, ends[-1] + 1))
+
+
+def _divided(asked: AskedWords) -> str | None:
+    """The one of two opposites that a named dividing line leaves."""
+    found = _DIVIDED.fullmatch(asked.words)
+    either = _EITHER.search(found["rest"]) if found else None
+    line = asked.term(found["n"]) if found else None
+    if either is None or line is None or found is None or _OTHER.search(found["rest"]):
+        return None
+    subject = _subject(line, found["rest"])
+    value = _value(line, line, subject) if subject else None
+    if subject is None or value is None:
+        return None
+    more, less = (either["a"], either["b"]) if either["a"] else (either["d"], either["c"])
+    return choice_of((more, f"{subject.expression} > {value:g}"), (less, ""))
