@@ -15,12 +15,34 @@ _INDIRECT = re.compile(
     r"(?:can|could|will|would|may|might|do|did|have|shall) (?:you|i|we) (?:[a-z]+ly )?"
     r"(?:please |perhaps |be so kind as to |be able to |mind |like to |happen to |have to )*"
     r"(?:tell|give|say|state|report|describe|name|know|let|show|quote|estimate|specify|share|note|"
-    r"read|have|ask|trouble|explain|provide|measure|check|see|express|send|put|write|call|class|get|learn|"
-    r"identify|summari|feel|sense|find|work|guess|indicate|confirm|comment|inform|remind|pass|advise|"
+    r"read|have|ask|trouble|explain|provide|measure|check|see|express|send|put|write|call|class|"
+    r"get|learn|"
+    r"identify|summari|feel|sense|find|work|guess|indicate|confirm|comment|inform|remind|pass|"
+    r"advise|"
     r"suggest|recommend)|(?:is|was|are|were) there\b",
     re.I,
 )
 """'Could you tell me' asks for anything."""
+
+_ASKS_OPENLY = re.compile(
+    r"(?:(?:and|so|now|then) )*(?:(?:by|at|to|of|in|with|from|on|for|about|roughly) )*"
+    r"(?:what(?! (?:if|about|makes)\b)|which|where|whereabouts|how (?:much|many|far|deep|deeply|"
+    r"big|"
+    r"large|heavy|high|wide|strong|strongly|hard|firmly|long|close|near|great))\b",
+    re.I,
+)
+"""'How many' and 'where' want no yes or no, but where another clause begins with a verb."""
+
+_LAST_CLAUSE = re.compile(
+    rf"[–—:;.,?!-]\s+(?:(?:and|so|but|then) )*(?P<clause>{AUXILIARY} (?:it|that|this|there|we|i|"
+    rf"you|"
+    r"they|the|my|our|your|any\w*|something)\b(?! (?:please|"
+    r"kindly)\b)[^?!;:,.]*\w[^?!;:,.]*)\??\s*$",
+    re.I,
+)
+_VERB_INSIDE = re.compile(
+    rf"(?:[–—:;.,?!-]|\b(?:whether|if|and|so))\s+{AUXILIARY}\b|\b(?:whether|if)\b", re.I
+)
 
 _ASKS_WHY = re.compile(
     r"\b(?:why|how come|reason|because|ground|justif|explain|explanation|motive|basis|rationale|"
@@ -76,10 +98,15 @@ def is_unlikely(question: str, query: str) -> bool:
     kinds = {part.strip().partition(" ")[0].rstrip(".") for part in parts}
     if "why" in kinds and not _ASKS_WHY.search(question):
         return True
-    if not _BEGINS_WITH_VERB.match(question) or _INDIRECT.match(question):
+    is_choice = re.search(r"\bor\b", question, re.I) is not None
+    if _ASKS_OPENLY.match(question) and not is_choice and not _VERB_INSIDE.search(question):
+        return kinds == {"check"}
+    last = _LAST_CLAUSE.search(question)
+    clause = last["clause"] if last else question
+    if not _BEGINS_WITH_VERB.match(clause) or _INDIRECT.match(clause):
         return False
     wanted = {"check", "unknown", "other"}
-    if re.search(r"\bor\b", question, re.I):
+    if is_choice:
         wanted.add("choice")
     return not kinds & wanted
 

@@ -142,6 +142,12 @@ ROWS: Mapping[str, RowRecipe] = {
     "cltp_muon": RowRecipe(
         about="CLTP, all points, by Muon instead of AdamW", method="cltp", optimiser="muon"
     ),
+    "cltp_muon_full": RowRecipe(
+        about="CLTP, all points, by Muon, learned from the set full without the unseen objects",
+        method="cltp",
+        learns_from="full",
+        optimiser="muon",
+    ),
     "cltp_quarter": _quarter("CLTP, all points, a quarter of the budget", _USUAL),
     "cltp_muon_quarter": replace(
         _quarter("CLTP, all points, by Muon, a quarter of the budget", _USUAL), optimiser="muon"

@@ -13,6 +13,9 @@ from tacgrasp.lessons.question_form import is_unlikely
         ("is it a sphere or a ring", "word shape."),
         ("what is the next action to dispatch", "why step."),
         ("is it deep", "amount depth mm; word shape."),
+        ("how many parts in a hundred are covered", "check whole."),
+        ("where on the pad has it landed", "check cut."),
+        ("centered - does that word describe the contact", "word position."),
     ],
 )
 def test_another_kind_of_answer_is_unlikely(question, query):
@@ -30,6 +33,10 @@ def test_another_kind_of_answer_is_unlikely(question, query):
         ("on what grounds do you say so", "why step."),
         ("what is the depth", "amount depth mm."),
         ("depth", "check depth deep."),
+        ("what is the verdict: is it within the band", "check force within."),
+        ("which is it, over or under two newtons", "check force > #1 N."),
+        ("what about the band", "check force within."),
+        ("how deep is it, and is it round", "amount depth mm; check shape sphere."),
         ("", "other."),
     ],
 )

@@ -3,6 +3,7 @@
     I want no more than 800 mN on this tissue. Have we exceeded that?      force_n > 0.8
     The plaster may bear 0.9 N at the very most; are we beneath it?         force_n < 0.9
     It weighs 250 g. Will the grip surely hold that?                        holds_g >= 250
+    I'm aiming for a depth of 0.4 to 1.2 mm; do we meet that?               0.4 <= depth_mm <= 1.2
 
 Not here: rules that are stated and judged in one (``tacgrasp.lessons.dialogue.clauses.verdicts``).
 """
@@ -11,6 +12,9 @@ from __future__ import annotations
 
 import re
 
+from tacgrasp.lessons.dialogue.calculations.asked import usual, usual_unit
+from tacgrasp.lessons.dialogue.calculations.quantity_names import UNIT
+from tacgrasp.lessons.dialogue.calculations.terms import TermReader, alike
 from tacgrasp.lessons.dialogue.clauses.comparing import compared
 from tacgrasp.lessons.dialogue.clauses.plain_clause import numbered
 from tacgrasp.lessons.dialogue.clauses.word_sets import words_of
@@ -56,7 +60,7 @@ _KEPT = re.compile(
 _BROKEN = re.compile(
     rf"(?:{_VERB} (?:{_WE}|{_IT}) )?{_STILL}(?:violat(?:e|ed|ing)|broken|breach(?:ed|ing)?|"
     r"break(?:ing)?|"
-    rf"overstepp(?:ed|ing)|crossed|outside|fail(?:ed|ing)?)(?: {_IT})?"
+    rf"overstepp(?:ed|ing)|crossed|outside|fail(?:ed|ing)?|miss(?:ed|ing)?)(?: {_IT})?"
 )
 _REACHED = re.compile(
     rf"(?:{_VERB} (?:{_WE}|{_IT}) )?{_STILL}(?:reach(?:ed|ing)?|hit|there|at|got to|"
@@ -106,6 +110,15 @@ _AT = re.compile(
 )
 
 
+_RANGE = re.compile(
+    rf"(?P<before>(?:(?!#).)*?)(?:between |from )?(?P<low>#1)(?: (?:{UNIT}))? (?:to|and|through|"
+    rf"up to) "
+    rf"(?P<high>#2 (?P<unit>{UNIT}))(?P<after>(?: [a-z]+)*)"
+)
+_NO_RANGE = re.compile(
+    r"\b(?:not|never|except|x|y|offset|center|middle|limit|off|edge|apart|difference|if|or)\b"
+)
+_OF_FORCE = re.compile(r"\b(?:force|grip|squeeze|press\w*|push\w*|hold\w*|clamp\w*)\b")
 _NUMBERED_RULE = re.compile(r"(?<=\w) [A-Z]{1,4}-?\d+(?:\.\d+)*\b(?! ?(?:N|mN|mm|g|%)\b)")
 """'Requirement R-12': a name with a number, which measures nothing."""
 
@@ -125,9 +138,34 @@ def kept(question: str) -> Calculated | None:
         if "#" in asked or not asked:
             continue
         setting, numbers = numbered(text[: joint.start()])
-        if truth := _truth(setting, numbers, asked):
+        if truth := _in_range(setting, numbers, asked) or _truth(setting, numbers, asked):
             return Calculated(truth=truth, unit=None)
     return None
+
+
+def _in_range(setting: str, numbers: tuple[float, ...], asked: str) -> str:
+    """Whether a range that somebody aims at is kept or missed; '' of other questions."""
+    found = _RANGE.fullmatch(setting)
+    if found is None or _NO_RANGE.search(setting) or len(numbers) != 2:
+        return ""
+    reader = TermReader(numbers)
+    low, high = (reader.read(f"{found[end][:2]} {found['unit']}") for end in ("low", "high"))
+    if low is None or high is None or not usual_unit(high.dimension):
+        return ""
+    is_force = high.dimension == "mass" and _OF_FORCE.search(setting)
+    pairs = [alike(usual("force" if is_force else high.dimension), end) for end in (low, high)]
+    if pairs[0] is None or pairs[1] is None:
+        return ""
+    inside = f"{pairs[0][1].factor} <= {pairs[0][0].expression} <= {pairs[1][1].factor}"
+    denied = re.search(r"\bnot\b", asked) is not None
+    asked = " ".join(re.sub(r"\bnot\b", "", asked).split())
+    is_kept, is_missed = (
+        _KEPT.fullmatch(asked) or _REACHED.fullmatch(asked),
+        _BROKEN.fullmatch(asked),
+    )
+    if not (is_kept or is_missed):
+        return ""
+    return f"not ({inside})" if bool(is_missed) != denied else inside
 
 
 def _truth(setting: str, numbers: tuple[float, ...], asked: str) -> str:

@@ -103,6 +103,8 @@ def test_a_word_without_a_meaning_here_leaves_none(statement):
         ("We're not over two newtons, are we?", "not (force_n <= 2)"),
         ("I want no more than 800 millinewtons on this tissue. Have we exceeded that?",
          "force_n > 0.8"),
+        ("I'm aiming for a depth of 0.4 to 1.2 mm; do we meet that?", "0.4 <= depth_mm <= 1.2"),
+        ("The spec asks for between 1 and 2 N. Are we outside it?", "not (1 <= force_n <= 2)"),
         ("The plaster may bear 0.9 N at the very most; are we beneath that figure?",
          "force_n < 0.9"),
         ("Minimum contact is 10 % of the pad. Do we meet it?", "area_percent >= 10"),
