@@ -29,6 +29,7 @@ from tacgrasp.lessons.dialogue.choices.choosing import chosen
 from tacgrasp.lessons.dialogue.choices.named import loosely_named
 from tacgrasp.lessons.dialogue.choices.own_words import in_its_words
 from tacgrasp.lessons.dialogue.clauses.clauses import clauses_of, judged_as_one, unfelt
+from tacgrasp.lessons.dialogue.clauses.replies import replied
 from tacgrasp.lessons.dialogue.clauses.speech import asked_in_speech
 from tacgrasp.lessons.dialogue.conditions import check_of
 from tacgrasp.lessons.dialogue.families.catalogue import understand
@@ -191,7 +192,8 @@ def understood_by_grammar(question: str, before: str = "") -> ReadQuestion | Non
 def _composed(question: str) -> Meaning | None:
     """What a question means by the first reader that accounts for all of it."""
     return (
-        (calculated(question) if begins_supposed(question) else None)
+        replied(question)
+        or (calculated(question) if begins_supposed(question) else None)
         or chosen(question)
         or judged_as_one(question)
         or asked_together(question)

@@ -54,6 +54,8 @@ _OPENS = re.compile(rf"(?:{AUXILIARY}|what|how|which|where|why|who|when)\b", re.
 _ADDRESS = re.compile(
     r"(?:(?:ok(?:ay)?|so|well|right then|now then|hang on|hold on|wait|hey(?: \w+)?|hi(?: \w+)?|"
     r"hello(?: \w+)?|robot|um+|uh+|er+m?|sorry|excuse me|please|quick question|tell me|listen|look|"
+    r"unless i(?:['’]m| am) (?:very much )?(?:mistaken|wrong)|if i(?:['’]m| am) not (?:mistaken|"
+    r"wrong)|"
     r"actually|by the way|good (?:morning|afternoon|evening)|just checking|just curious|"
     r"one more thing|one more question|(?:i|we) (?:would like|want|need|wish) to "
     r"(?:confirm|check|verify|ask|be sure|make sure|know)|but|oh|yo|buddy|mate|my friend|"
@@ -126,8 +128,30 @@ _AS_REFERENCE = re.compile(
 )
 """'Taking 0.4 mm as the dividing line, is it above that?'"""
 
-_NUMERO = re.compile(r"(?<=\w )no\.(?= (?:of|on|from)\b|\s*\?*$)", re.I)
+_MEANING = re.compile(
+    r"\b[a-z-]+,? (?:meaning|which means|by which i mean) "
+    r"(?=(?:under|over|less|more|below|above|at least|at most|between|within)\b)",
+    re.I,
+)
+"""'Shallow, meaning under half a millimetre', which is what is meant."""
+
+_THOU = re.compile(r"\bthousandths? of an inch\b", re.I)
+_NUMERO = re.compile(r"\b(serial|phone|part|item|order|batch|lot|model) no\.", re.I)
 """'Serial no. of the part'."""
+
+_QUOTED = r"['\"“‘](?P<{}>[a-z]+(?:[ -][a-z]+)?)['\"”’]"
+_WORD_FITS = re.compile(
+    rf"{AUXILIARY}(?:n['’]t)? {_QUOTED.format('a')} (?:be )?(?:the|an?|your) (?:right |correct |"
+    rf"fitting |proper )?"
+    r"(?:word|term|label|adjective|description)\b[^?]*\??|"
+    rf"{AUXILIARY}(?:n['’]t)? (?:the |that |this )?(?:word|term|label|adjective|description) "
+    rf"{_QUOTED.format('b')} [^?]*\??|"
+    rf"{_QUOTED.format('c')}\W+(?:{AUXILIARY}) (?:that|this|it) (?:(?:the|a|your) )?(?:right |"
+    rf"correct )?"
+    r"(?:word|term|label|adjective|description)\b[^?]*\??",
+    re.I,
+)
+"""'Is "centered" the word for where it is?', which asks whether it is centered."""
 
 _IN_UNIT = re.compile(r"\bin [a-zµ²%]+\b|\bhow many\b", re.I)
 _NUMBER = r"(?<![\d.,])(\d+(?:\.\d+)?)"
@@ -169,10 +193,14 @@ def is_denied_first(question: str) -> bool:
 
 def plainer(question: str) -> str:
     """A question without address, thanks and tag, and without the denial that expects 'yes'."""
-    text = _NUMERO.sub("number", metric(" ".join(question.split())))
+    text = _THOU.sub("thou", " ".join(question.split()))
+    text = _MEANING.sub("", text)
+    text = _NUMERO.sub(r"\1 number", metric(text))
     if opening := _ADDRESS.match(text):
         text = text[opening.end() :]
     text = _ADDED.sub("", _POLITE_VERB.sub("", text, count=1))
+    if fits := _WORD_FITS.fullmatch(text):
+        text = f"is it {fits['a'] or fits['b'] or fits['c']}?"
     text = _AS_REFERENCE.sub(r"\g<asks> \g<mark>\g<rest>", text)
     if rounded := _ROUNDED.search(text):
         rest = f"{text[: rounded.start()]}{text[rounded.end() :]}"

@@ -74,8 +74,10 @@ _PARTS: Mapping[str, tuple[str, str]] = {
 _ASKED_UNIT = re.compile(
     rf"\b(?:in|as|how many|how much) (?:(?:plain|whole|full) )?({_SAID_UNIT})(?![^ ])"
     rf"|(?<!# )(?<![^ ])(?=\w\w)({_SAID_UNIT})$"
+    rf"|\b(?:convert|translate|change|turn)\b.* (?:to|into) ({_SAID_UNIT})(?![^ ])"
+    rf"|^(?=\w\w)({_SAID_UNIT})(?= (?!per\b))"
 )
-"""A unit that is asked for: behind 'in' or 'how many', or the last word: 'force, lbf'."""
+"""A unit that is asked for: behind 'in', 'how many' or 'convert to', or the first or last word."""
 
 _AMOUNT = re.compile(r"amount (\w+(?: (?!- )[a-z]\w*)?)( #\d \w+)? (\S+?)(?= in a |\.|;|$)")
 _OF_MASSES = re.compile(r"\b(?:slips|stays|holds|mass|spare|needed)\b")
@@ -148,7 +150,7 @@ def in_asked_unit(query: str, words: str) -> str:
     Returns:
         The query; '' where it is for one amount that is not to be had in the one unit asked for.
     """
-    said = [match[1] or match[2] for match in _ASKED_UNIT.finditer(words)]
+    said = [next(filter(None, match.groups())) for match in _ASKED_UNIT.finditer(words)]
     named = list(dict.fromkeys(_units_of(each) for each in said))
     amounts = list(_AMOUNT.finditer(query))
     quantities = [amount[1] for amount in amounts]

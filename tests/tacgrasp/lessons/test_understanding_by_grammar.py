@@ -24,6 +24,19 @@ class Refusing:
         ("What percentage of 2 mm is the depth?", "calculate 100 * depth_mm / 2 in %."),
         ("If the force doubled, would it exceed the limit?", "calculate 2 * force_n > limit_n."),
         (
+            "Could another newton be piled on top without going past the cap?",
+            "calculate limit_n - force_n >= 1.",
+        ),
+        (
+            "Say 'stop' if the force is past its limit and 'go' if it isn't.",
+            "calculate 'stop' if force_n > limit_n else 'go'.",
+        ),
+        (
+            "If it is deeper than 1 mm answer A, otherwise B.",
+            "calculate 'A' if depth_mm > 1 else 'B'.",
+        ),
+        ("Say yes if the depth is over 1 mm, otherwise no.", "calculate depth_mm > 1."),
+        (
             "Were another 2 N added, would the limit be breached?",
             "calculate force_n + 2 > limit_n.",
         ),
@@ -108,6 +121,8 @@ def test_what_calculates_is_read_with_some_doubt(question, query):
 @pytest.mark.parametrize(
     ("question", "query"),
     [
+        ("Is the depth above 20 thousandths of an inch?", "check depth > #1 mm."),
+        ("Is 'centered' the word you'd use for where it touches?", "check position centered."),
         ("Should I squeeze more?", "check force below."),
         ("y in cm", "amount y cm."),
         ("If I ran a thumb over it, how would it feel?", "word texture."),

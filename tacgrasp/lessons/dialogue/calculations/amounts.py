@@ -36,7 +36,9 @@ from tacgrasp.lessons.dialogue.quantities import GRAVITY_N_PER_G, UNITS
 
 _WEIGHS = re.compile(
     r"(?:how much|what|how many #?[a-z]+) (?:does|do|would|will) (?:(?:the|that|this) )?"
-    r"(?:(?:held|gripped|grasped) )?[a-z]+ weigh|(?:with )?(?:how much|what|"
+    r"(?:(?:held|gripped|grasped) )?[a-z]+(?: (?:(?:that|which) is )?(?:being )?(?:held|gripped|"
+    r"grasped))? "
+    r"weigh|(?:with )?(?:how much|what|"
     r"how many [a-z]+)(?: force)? "
     r"(?:does|do) gravity pull (?:on |at )?(?:(?:the|that|this) )?[a-z]+(?: with| down| at)*"
 )
@@ -57,7 +59,8 @@ _AT = re.compile(
 _ALONE = re.compile(
     r"(?:(?:what|how (?:much|large|big|great)|(?:what|which) (?:force|depth|mass|area)) "
     r"(?:is|are|would be|makes?) )?(?P<a>.+?)(?: (?:(?:what|how much) is (?:it|that|the .+)|"
-    r"(?:comes?|amounts?) to (?:what|how much)|(?:is|makes|equals) (?:what|how much)|"
+    r"(?:would |will )?(?:comes?|come|amounts?|total|weigh|add up) (?:to )?(?:what|how much)|(?:is|"
+    r"makes|equals) (?:what|how much)|"
     r"under earth gravity.*|given the (?:stated |told )?mass))*"
 )
 

@@ -33,10 +33,14 @@ _PRONOUN = re.compile(
 _PEOPLE = re.compile(r"(?:we|us|me|i|you|they)\b")
 _AS_IT_IS = re.compile(r"\b(?:present|presently|current|currently|now|old)\b")
 _GRAVITY = re.compile(
-    r"^(?:with|using|at|for|taking) (?:a |the )?(?:g |gravity )?(?:of )?#\d+ m\b \S+ "
+    r"^(?:with|using|at|for|taking) (?:a |the )?(?:g |gravity )?(?:of )?#\d+ m\b \S+ |"
+    r"^(?:with|using|at|for|taking) (?:a |the )?(?:g|gravity)(?: (?:taken|set|at|as|of|is|equals|"
+    r"to|"
+    r"being|equal))* #\d+(?: (?:m|n) \S+(?: #\d+)?)? "
 )
 _LEADING = re.compile(
-    r"^(?:(?:please|kindly|express|tell me|give me|state|say|report|compute|calculate|work out|"
+    r"^(?:(?:please|kindly|do the (?:arithmetic|maths?|sums?|calculation)(?: for (?:me|us))?|"
+    r"express|tell me|give me|state|say|report|compute|calculate|work out|"
     r"determine|figure out|find|find me|show me|name|quote|put|now|well|ok|okay|right|then|and|so|"
     r"hmm+|um+|uh+|for (?:my|the|our|your) (?:log|notes?|record|report|minutes|sheet|table|file|"
     r"book|boss|form|spec|calc|sums?)|just|roughly|"
@@ -76,6 +80,9 @@ _FIRST_UNIT = re.compile(
 )
 """A unit that begins a question without 'how many': 'mm of travel left'."""
 
+_PRESSURE_UNIT = re.compile(
+    r"(?<!\d )\b(?:psi|(?:hecto|kilo|mega)?pascals?|[hkm]pa|millibars?|mbar)\b"
+)
 _MANY = re.compile(
     rf"\b(?:how many(?: (?:{_MORE}|whole))?|what|which|how much) "
     rf"({UNIT})\b(?! of (?:the |our )?(?!force|grip|squeeze|pressure|indentation|travel|load|it))"
@@ -96,7 +103,8 @@ _ANSWERED = re.compile(
     r"[a-z]+(?: [a-z]+)?(?: or [a-z]+(?: [a-z]+)?)+$"
 )
 _TAKING_G = re.compile(
-    r" (?:use|take|taking|with|using) (?:g )?(?:as |of )?#\d+(?: m \S+(?: #\d+)?)?(?: (?:for|"
+    r" (?:use|take|taking|with|using) (?:g )?(?:as |of )?#\d+(?: (?:m|"
+    r"n) (?:per )?\S+(?: #\d+)?)?(?: (?:for|"
     r"as) g)?"
     r"(?= name (?:that|the) number$|$)"
 )
@@ -340,6 +348,8 @@ def _unit(words: str) -> tuple[str, str]:
         return unit_of(last[1]), words[: last.start()]
     if not found and (first := _FIRST_UNIT.match(words)):
         return unit_of(first[1]), f"how much {words[first.end() :]}"
+    if not found and (pressure := _PRESSURE_UNIT.search(words)):
+        return unit_of(pressure[0]), f"{words[: pressure.start()]}{words[pressure.end() :]}"
     if not found:
         return "", words
     return unit_of(found[-1][1]), f"{words[: found[-1].start()]}{words[found[-1].end() :]}"

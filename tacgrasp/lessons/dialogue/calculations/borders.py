@@ -26,7 +26,7 @@ _SIDES: Mapping[str, tuple[str, str]] = {
 }
 _PAD = r"(?:pad|sensor|gel|sensing area|sensing surface|skin)"
 _BORDER = re.compile(
-    rf"\b(?:from|to|and|of|between|before|until|till|off|over|past|reach(?:es|ed|ing)?|hits?|"
+    rf"\b(?:from|to|and|of|between|before|is|until|till|off|over|past|reach(?:es|ed|ing)?|hits?|"
     rf"across) "
     rf"(?:(?:the|our|its|this|your) )?(?:{_PAD} )?(?:{_PAD}'s )?(?:"
     + "|".join(f"(?P<{side}>{words})" for side, (words, _) in _SIDES.items())
@@ -52,7 +52,7 @@ _OF_DISTANCE = (
     r"before|until|then|rather|than|still|we|i|you|touching|felt|where|straight|slide|slides|"
     r"would|have to|it would|dividing|divides?|into|reckoned|taken|upward|upwards|downward|"
     r"downwards|leftward|rightward|"
-    r"leftwards|rightwards|sideways|horizontally|vertically|measuring|counting|height|high)"
+    r"leftwards|rightwards|sideways|horizontally|vertically|measuring|counting|height|high|find|found|located|down)"
 )
 _AGAINST = re.compile(
     r"\b(?:(?P<more>(?:more|further|farther|greater) than|over|beyond)|"

@@ -27,7 +27,7 @@ _BE = (
     r"(?:(?:be|is|are|am|was|were|lie|lies|lying|sit|sits|sitting|land|landing|stay|stays|staying|"
     r"stand|stands|come out|end up|ending up|come|coming|remain|remains|remaining|get|getting|go|"
     r"going|fall|falls|falling|drop|dropping|keep|keeping|"
-    rf"got|{MOVES})(?: (?:back|at|up|down))?|at)"
+    rf"got|{MOVES})(?: (?:back|at|up|down|in))?|at)"
 )
 _COMPARED = tuple(
     (sign, re.compile(rf"(?P<a>.+?)(?: {_ADVERB})*(?: {_BE})?(?: {_ADVERB})* (?:{said}) (?P<b>.+)"))
@@ -61,7 +61,8 @@ _NEARER = re.compile(
 )
 _PUSHED = re.compile(
     r"(?:we|you|i|it|the gripper)(?: are| is)? (?:(?:push|press|squeez|gripp?)(?:ing|es|e|"
-    r"ed)?(?: on it)? (?:harder|more)|(?:us|spend|tak)(?:ing|es?|en)(?: up)? more) than"
+    r"ed)?(?: on it)? (?:harder|more)|(?:us|spend|tak)(?:ing|es?|en)(?: up)? more) than|"
+    r"(?:we|you|i|it|the gripper)(?: are| is)? (?:us|spend|tak)(?:ing|es?|en)(?: up)? over"
 )
 _AMOUNT = r"(?:(?P<more>more than|over)|(?P<fewer>less than|under)|at least)"
 _SIDES = (
@@ -73,6 +74,12 @@ _BY = re.compile(
 )
 _SO_MUCH = re.compile(
     rf"(?P<a>.+?)(?: {_ADVERB})*(?: {_BE})? (?:{_AMOUNT} )?(?P<c>#\d+ \w+) {_SIDES} (?P<b>.+)"
+)
+_KEPT_BY = re.compile(
+    r"(?:a |the )?(?:force )?(?:limit|ceiling|cap|maximum) of (?P<b>#\d+ \w+)(?: (?:have|has|been|"
+    r"be|is))* "
+    r"(?:(?P<kept>respected|kept|observed|obeyed|met)|exceeded|violated|broken|passed|crossed|"
+    r"overstepped)(?: by (?:the )?(?:present |current )?(?:force|grip|squeeze))?"
 )
 _LIMIT = re.compile(
     rf"(?:the )?(?:force )?(?:limit|ceiling)(?: {_ADVERB})*(?: be)?(?: {_ADVERB})* "
@@ -109,6 +116,7 @@ _ONE_OF = re.compile(
     rf"(?=.+? and .+? (?:{_VERB} )?(?:more|less|above|over|below|under|"
     r"greater|larger|smaller|exceed))"
 )
+_NOT_YET = re.compile(r"((?:has|have|is|are) (?:(?!#).)+? )yet to (?:get |go |come |rise |climb )?")
 _USED_UP = re.compile(
     r"(?P<sign>more than|over|less than|under|at least|at most) (?P<b>.+?)(?: (?:been|be|got))? "
     r"(?:used(?: up)?|spent|taken(?: up)?|consumed|exhausted|gone|reached)(?: already| by now|"
@@ -159,6 +167,10 @@ _ROOM = re.compile(
 def calculated_check(asked: AskedWords) -> Calculated | None:
     """What a question asks whether it is so; None where it asks for no such thing."""
     words, is_any = asked.words, False
+    if not_yet := _NOT_YET.match(words):
+        rest = f"{not_yet[1]}{words[not_yet.end() :]}"
+        reached = calculated_check(replace(asked, words=rest))
+        return reached and replace(reached, truth=f"not ({reached.truth})")
     if one_of := _ONE_OF.match(words):
         is_any, words = True, words[one_of.end() :].replace(" and ", " or ")
     elif _ASKS_ANY.search(words):
@@ -197,6 +209,9 @@ def condition_of(asked: AskedWords, words: str) -> str | None:
         place = asked.subject or Term(expression=name, dimension="length", words="it")
         if place.dimension == "length" and name in place.expression:
             return f"{place.expression} {'<' if found['side'] in ('left', 'below') else '>'} 0"
+    found = _KEPT_BY.fullmatch(words)
+    if found and (bound := asked.term(found["b"])) and bound.dimension == "force":
+        return f"force_n {'<=' if found['kept'] else '>'} {bound.factor}"
     if found := _LIMIT.fullmatch(words):
         pair = asked.pair("we", "the limit")
         return (

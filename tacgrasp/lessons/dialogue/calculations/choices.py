@@ -10,6 +10,7 @@ Not here: choices between words of the contact (``tacgrasp.lessons.dialogue.fami
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 
 from tacgrasp.lessons.dialogue.calculations.asked import AskedWords, usual
 from tacgrasp.lessons.dialogue.calculations.checks import shared_noun
@@ -46,6 +47,12 @@ _WHICH_END = re.compile(
     r"(?:is|are|does|do) (?P<a>.+?)(?: (?:sit|lie))? (?:nearer|"
     r"closer)(?: to)?(?: (?:the )?(?P<b>\w+)(?: (?:one|end|edge))? or "
     r"(?:the )?(?P<c>\w+)(?: (?:one|end|edge))?)?"
+)
+_PICKED_END = re.compile(
+    r"(?:(?:pick|choose|name|take) )?(?:the )?(?:edge|end|side|bound) of (?:the |"
+    r"our )?(?P<band>.+?) "
+    r"(?P<b>low|lower|upper|high|bottom|top) or (?P<c>low|lower|upper|high|bottom|top) "
+    r"(?:that|which) (?:is|lies) (?:nearer|closer|nearest|closest)(?: to)? (?P<a>.+)"
 )
 _OF_BOTH_ENDS = re.compile(
     r"(?:which|what) (?:of the (?:#\d+|two) )?(?:(?:edge|end|side|bound)s? of "
@@ -102,8 +109,17 @@ _NOT_PLACED = re.compile(
 _ARTICLE = re.compile(r"^(?:the|our|to|to the) ")
 
 
+_OF_THE_TWO = re.compile(
+    r"(?:of|between) (?:(?:the|these) )?#\d+ (?P<a>.+) and (?P<b>.+) which (?:one )?(?:is|are) "
+    r"(?P<how>.+)|is it (?P<a2>.+) or (?P<b2>.+) (?:that|which) (?:is|are) (?P<how2>.+)"
+)
+
+
 def calculated_choice(asked: AskedWords) -> Calculated | None:
     """What a question lets choose by terms; None where it lets choose nothing so."""
+    if two := _OF_THE_TWO.fullmatch(asked.words):
+        a, b, how = (two[name] or two[f"{name}2"] for name in ("a", "b", "how"))
+        asked = replace(asked, words=f"which is {how} {a} or {b}")
     for reader in (
         _which, _which_end, _nearer, _scale_half, _over_or_under, _step, _back, _half, _covered,
     ):  # fmt: skip
@@ -151,7 +167,8 @@ def _nearer(asked: AskedWords) -> Calculated | None:
 
 
 def _which_end(asked: AskedWords) -> Calculated | None:
-    found = _WHICH_END.fullmatch(asked.words) or _OF_BOTH_ENDS.fullmatch(asked.words)
+    patterns = (_WHICH_END, _PICKED_END, _OF_BOTH_ENDS)
+    found = next(filter(None, (each.fullmatch(asked.words) for each in patterns)), None)
     if found is None or not is_band(found["band"] or found["of"]):
         return None
     named = found["a"] or found.groupdict().get("also") or ""

@@ -111,6 +111,7 @@ _ADDED = tuple(
     re.compile(pattern)
     for pattern in (
         rf"add (?P<b>.+?) (?:to|and) (?P<a>.+?)(?: together| up)?{_GET}",
+        r"(?:(?:what is|give me|the) )*sum of (?P<b>.+) and (?P<a>.+)",
         r"(?:what|how much) (?:do|would) (?:you|we|i) (?:get|have) (?:if|when) (?:you|we|i) "
         r"add (?P<b>.+) (?:to|and) (?P<a>.+)",
     )

@@ -43,6 +43,11 @@ _PRESSURE = re.compile(
     r"\b(?:pressure|stress|force (?:per|divided by|over|spread|shared|distributed)|"
     r"(?:divide|dividing|spread|spreading|distribute|distributing)\b.*\b(?:force|push|squeeze))\b"
 )
+_IN_PRESSURE = re.compile(
+    r"\b(?:psi|(?:hecto|kilo|mega)?pascals?|[hkm]?pa|millibars?|mbar|n per (?:sq|square) (?:cm|mm)|"
+    r"(?:how much|newtons?) .*\b(?:on|for|over|per) (?:each|every|an?|one) (?:square|sq) "
+    r"(?P<per>mm|millimet(?:re|er)|cm|centimet(?:re|er)))\b"
+)
 _IS_MEAN = re.compile(
     r"\b(?:mean|average|averaged|divid\w+|spread\w*|over|per|distribut\w+|shared|uniform\w*|"
     r"even\w*)\b"
@@ -68,7 +73,13 @@ def pressure(asked: AskedWords) -> Term | None:
     unit = UNITS.get(asked.unit)
     is_asked = unit is not None and unit.dimension == "pressure"
     words = asked.words
-    if asked.numbers or (asked.unit and not is_asked):
+    if asked.numbers:
+        return None
+    if named := _IN_PRESSURE.search(words if not is_asked else f"{words} pa"):
+        per = (named["per"] or "")[:1]
+        unit_said = {"m": "N/mm²", "c": "N/cm²"}.get(per, "pressure")
+        return Term(expression="force_n / area_mm2", dimension=unit_said, words="")
+    if asked.unit and not is_asked:
         return None
     words = re.sub(r" ?on average$", "", words)
     if not is_asked and not (_PRESSURE.search(words) and _IS_MEAN.search(words)):

@@ -71,7 +71,8 @@ _SURELY = (
 _HELD = r"(?:load|mass|weight|payload|holding capacity|capacity|holding mass|hold)"
 _NAMED: Mapping[str, tuple[str, str]] = {
     rf"(?:normal |contact |grip |gripping |grasp |pressing |squeezing |pinch |clamping |clamp |"
-    rf"holding |squeeze )*(?:force|squeeze|push|pressure|grip|pinch|press|clamp|clench|grasp)"
+    rf"holding |squeeze |pushing |pressing )*(?:force|squeeze|push|pressure|grip|pinch|press|clamp|"
+    rf"clench|grasp)"
     rf"{_ON}|(?:grip|force|squeeze) (?:strength|level|reading)|clamping|squeezing|"
     r"(?:force |what )?(?:that )?(?:you|we)(?: are)? (?:feel|press|apply|measur|sens|exert)(?:e|"
     r"ing)?"
@@ -80,6 +81,9 @@ _NAMED: Mapping[str, tuple[str, str]] = {
     ),
     rf"(?:{_LIMIT})(?: {_NEVER})?": ("limit_n", "force"),
     _ends(_LOW): ("band_low_n", "force"),
+    r"(?:agreed|wanted|required|requested|desired) (?:minimum|min)(?: force)?": (
+        "band_low_n", "force",
+    ),
     _ends(_HIGH): ("band_high_n", "force"),
     rf"{_MIDDLE} of (?:the |our )?{_BAND_NAME}|{_BAND_NAME}(?:'s)? {_MIDDLE}": (
         "(band_low_n + band_high_n) / 2", "force",
@@ -104,6 +108,9 @@ _NAMED: Mapping[str, tuple[str, str]] = {
     r"y(?: (?:offset|coordinates?|value|position|component|displacement))?|(?:vertical|lengthwise|"
     r"up down|up and down) "
     r"(?:offset|position|displacement|coordinate)|contact's y": ("y_mm", "length"),
+    r"sum of (?:both|(?:the )?(?:two|#\d+)) (?:coordinates|offsets)(?: of (?:the )?contact)?": (
+        "x_mm + y_mm", "length",
+    ),
     rf"(?:radial )?(?:distance|offset)(?: of (?:the )?(?:contact|{_THING}))? (?:from|to) "
     r"(?:the )?(?:pad )?(?:middle|center)(?: of (?:the )?pad)?": ("hypot(x_mm, y_mm)", "length"),
     rf"(?:stated |told )?mass{_OF_THING}?|{_THING}(?:'s)?(?: own)? mass": ("mass_g", "mass"),
@@ -124,7 +131,8 @@ _NAMED: Mapping[str, tuple[str, str]] = {
     r"(?:whole |full |entire )?(?:pad|sensing area)|(?:full|complete|total) coverage": (
         "100", "fraction",
     ),
-    r"what (?:the )?(?:contract|rules?|spec|task|instructions?) (?:lets?|allows?|permits?) "
+    r"what (?:the )?(?:(?:force )?limit|contract|rules?|spec|task|instructions?) (?:lets?|allows?|"
+    r"permits?) "
     r"(?:(?:you|us|me|it|the gripper) )?(?:(?:to )?(?:apply|use|exert|press with|put on|"
     r"squeeze with))?"
     r"(?: at (?:the )?(?:very )?most)?": ("limit_n", "force"),
@@ -140,7 +148,7 @@ WEIGHT = re.compile(
 )
 """Names of the mass that are asked for in newtons too."""
 
-_BAND = re.compile(rf"(?:(?:the|our|this|whole|entire) )*{_BAND_NAME}")
+_BAND = re.compile(rf"(?:(?:the|our|this|whole of|all of|whole|entire) )*{_BAND_NAME}")
 
 _UNIT_WORDS: Mapping[str, str] = {
     r"(?:n|newtons?) per (?:mm2|mm²|(?:square|sq) (?:mm|millimet(?:re|er)s?))": "N/mm²",

@@ -169,6 +169,8 @@ def whole_share(asked: AskedWords) -> Term | None:
     """The touched part of the pad as a plain number, and the depth over a gel's named thickness."""
     parts = _OF_PARTS.fullmatch(asked.words)
     if parts and (count := asked.term(parts["n"])):
+        if count.expression == "100":
+            return Term(expression="area_percent", dimension="fraction", words="")
         expression = f"{count.expression} * area_percent / 100"
         return Term(expression=expression, dimension=PLAIN, words="")
     if asked.is_ratio and _COVERED.fullmatch(asked.words):

@@ -112,6 +112,14 @@ _MASS_OF = re.compile(
 )
 """A mass with whatever has it: 'a 20 g nut'."""
 
+_SUCH = re.compile(
+    rf"(#\d+) (?:of (?:these|them|those)(?: {THING}s?)?|such {THING}s?|(?:pieces|objects|items|"
+    rf"copies|things|"
+    r"parts) (?:like|identical to|just like) (?:this|it)(?: one)?)(?: together| combined|"
+    r" in total)?"
+)
+"""Several objects like the one that is held."""
+
 _SCALE = re.compile(
     rf"(?:scale|range|span|interval) (?:(?:of|from|running from|going from) )?(?P<low>#\d+)"
     rf"(?: (?:{UNIT}))? (?:to |through |up to )?(?P<high>.+)|"
@@ -193,7 +201,10 @@ def _number(words: str, numbers: tuple[float, ...]) -> Term | None:
     )
 
 
-def _quantity(words: str, _: tuple[float, ...]) -> Term | None:
+def _quantity(words: str, numbers: tuple[float, ...]) -> Term | None:
+    if count := _SUCH.fullmatch(words):
+        times = number_text(numbers[int(count[1][1:]) - 1])
+        return Term(expression=f"{times} * mass_g", dimension="mass", words=words)
     if WEIGHT.fullmatch(words):
         return Term(expression="mass_g", dimension="mass", words=words, is_weight=True)
     for pattern, expression, dimension in NAMED:

@@ -26,7 +26,11 @@ _BELOW = (
     r"under|below|less than|smaller than|lower than|lighter than|beneath|fewer than|"
     r"shallower than|short of"
 )
-_UP_TO = r"up to(?: and including)?|at most|no more than|not more than|not above|until|till"
+_UP_TO = (
+    r"(?:from (?:there|that|then) (?:on )?)?up to(?: and including)?|from (?:there|"
+    r"that)(?: on)? to|"
+    r"at most|no more than|not more than|not above|until|till"
+)
 _ABOVE = (
     r"over|above|more than|greater than|beyond|past|exceeding|higher than|larger than|deeper than|"
     r"heavier than|in excess of"
@@ -54,7 +58,7 @@ _VALUES = (
     r"(?:less|below|under|down|lighter|smaller|lower))|"
     rf"(?P<above>{_ABOVE}) (?P<a>#\d+)(?: (?P<a_unit>{UNIT}))?|"
     rf"(?P<from>{_FROM}) (?P<f>#\d+)(?: (?P<f_unit>{UNIT}))?|"
-    rf"(?P<rest>{_REST}))(?: of (?:the )?pad)?"
+    rf"(?P<rest>{_REST}))(?: (?:of|in) (?:the )?(?:pad|force|grip|depth|mass|weight))?"
 )
 _NO_LABEL = (
     r"(?!(?:and|or|but|the|a|an|is|are|am|it|its|of|for|if|as|that|this|to|be|we|i|you|me|us|with|"
@@ -70,19 +74,22 @@ _VALUES_FIRST = re.compile(
     rf"calls?(?: (?:it|that|them))?|goes (?:as|down as|under)) )?{_LABEL}(?= |$)"
 )
 _OTHERS = re.compile(rf"{_VALUES} {_LABEL}(?= |$)")
-_JOINT = re.compile(r" (?:(?:and|or|but|then) )*")
+_JOINT = re.compile(r" (?:(?:and|or|but|then|versus|vs) )*")
 _OTHER = re.compile(
     r"\b(?:if|not|never|how|why|limit|band|headroom|margin|offset|center|middle|distance|edge|x|y|"
     r"ratio|squared?|than|minus|plus|times|texture|shape|next)\b|#"
 )
 _OF_FORCE = re.compile(r"\b(?:force|grip\w*|press\w*|squeez\w*|push\w*|load|pinch\w*|clamp\w*)\b")
+_LINE_NAME = (
+    r"(?:dividing line|divide|threshold|cut off|cutoff|boundary|border|line|mark|split|watershed|"
+    r"borderline)(?: between \w+ and \w+)?"
+)
 _DIVIDED = re.compile(
-    rf"(?:(?:taking|with|using|use|take|if|say|given|let|have|our|the|dividing line|cut off|"
-    rf"cutoff|threshold|line|boundary|is|be|at) )*(?P<n>#\d+ (?:{UNIT})) "
-    r"(?:(?:as|is|being|for|be|to be|marks?|forms?|separates?|divides?) )?"
-    r"(?:(?:the|a|an|our|my) )?(?:dividing line|divide|threshold|cut off|cutoff|boundary|"
-    r"border|line|mark|split|watershed|borderline|limit between .+? and \w+?)"
-    r"(?: between .+? and \w+)? (?P<rest>.+)"
+    rf"(?:(?:taking|with|using|use|take|given(?: that)?|at|let) )*"
+    rf"(?:(?P<n>#\d+ (?:{UNIT}))(?: of (?:the )?pad)? "
+    r"(?:(?:as|is|being|for|be|to be|marks?|forms?) )?(?:(?:the|a|an|our|my) )?"
+    rf"{_LINE_NAME}|(?:(?:the|a|an|our|my) )?{_LINE_NAME} (?:(?:is|at|being|of|lies at|drawn at) )+"
+    rf"(?P<m>#\d+ (?:{UNIT}))(?: of (?:the )?pad)?)"
 )
 _MORE_WORDS = (
     r"(?:deep|heavy|firm|strong|large|big|high|hard|tight|broad|wide|much|powerful|great|thick|"
@@ -93,8 +100,20 @@ _LESS_WORDS = (
     r"tiny|mild|delicate|modest|superficial)"
 )
 _EITHER = re.compile(
-    rf"\b(?:(?P<a>{_MORE_WORDS}) or (?:rather )?(?P<b>{_LESS_WORDS})|"
-    rf"(?P<c>{_LESS_WORDS}) or (?:rather )?(?P<d>{_MORE_WORDS}))\b"
+    rf"\b(?:(?P<a>{_MORE_WORDS}) (?:or|and|versus|vs) (?:rather )?(?P<b>{_LESS_WORDS})|"
+    rf"(?P<c>{_LESS_WORDS}) (?:or|and|versus|vs) (?:rather )?(?P<d>{_MORE_WORDS}))\b"
+)
+
+
+_GRADES = re.compile(
+    rf"{_MORE_WORDS}|{_LESS_WORDS}|medium|mid|middle|middling|fair|normal|ok|okay|fine|good|bad|"
+    r"moderate|average|standard|acceptable|pass|fail|safe|unsafe|green|amber|yellow|red|poor|"
+    r"excellent|short|long|easy|rough|just right"
+)
+"""Words that need no quotes and no verb to stand for values."""
+
+_MEANS = re.compile(
+    r"\b(?:is|are|as|be|means?|meaning|counts?|makes?|gives?|goes|calls?|named|say)\b"
 )
 
 
@@ -123,8 +142,13 @@ class _Bin:
         return above and (self.high is None or value < self.high)
 
 
-def binned(asked: AskedWords) -> str | None:
-    """The word that a question's own values choose; None where it gives none."""
+def binned(question: str, asked: AskedWords) -> str | None:
+    """The word that a question's own values choose; None where it gives none.
+
+    Args:
+        question: The question, as it is written.
+        asked: The same in plain words.
+    """
     if truth := _divided(asked):
         return truth
     starts = [match.start() for match in re.finditer(r"(?<![^ ])(?=[a-z#])", asked.words)]
@@ -134,7 +158,18 @@ def binned(asked: AskedWords) -> str | None:
         for start in starts
     ]
     row = max(rows, key=len, default=())
-    return _chosen(asked, row) if len(row) > 1 else None
+    labelled = all(_is_label(question, match) for match in row)
+    return _chosen(asked, row) if len(row) > 1 and labelled else None
+
+
+def _is_label(question: str, match: re.Match[str]) -> bool:
+    """Whether a word stands for values: by quotes, a verb between them, or as a usual grade."""
+    label = match["label"]
+    if _GRADES.fullmatch(label) or re.search(
+        rf"['\"“‘]{re.escape(label)}['\"”’,.]", question, re.I
+    ):
+        return True
+    return _MEANS.search(match[0]) is not None and not re.fullmatch(UNIT, label)
 
 
 def _row(words: str, pattern: re.Pattern[str], start: int) -> Sequence[re.Match[str]]:
@@ -156,6 +191,8 @@ def _chosen(asked: AskedWords, found: Sequence[re.Match[str]]) -> str | None:
     named = next((term for each in ends for term in each if term and term.unit), None)
     subject = _subject(named, f"{before} {after}") if named else None
     if named is None or subject is None:
+        return None
+    if any(end.dimension not in (named.dimension, UNSAID) for each in ends for end in each if end):
         return None
     bins = [_bin(match, each, named, subject) for match, each in zip(found, ends, strict=True)]
     sized = [each for each in bins if each and (each.low is not None or each.high is not None)]
@@ -185,16 +222,16 @@ def _bin(
     """A word with its values in the unit of the subject; None where these do not fit it."""
     if match["rest"]:
         return _Bin(match["label"])
-    values = [_value(end, named, subject) for end in ends if end is not None]
-    if None in values or not values:
+    low, high = (None if end is None else _value(end, named, subject) for end in ends)
+    if low is None:
         return None
     if match["low"]:
-        return _Bin(match["label"], *values) if len(values) == 2 else None
+        return None if high is None else _Bin(match["label"], low, high)
     is_above = bool(match["a"] or match["f"] or match["up"])
     has_end = not (match["b"] or match["a"])
     if is_above:
-        return _Bin(match["label"], low=values[0], has_low=has_end)
-    return _Bin(match["label"], high=values[0], has_high=has_end)
+        return _Bin(match["label"], low=low, has_low=has_end)
+    return _Bin(match["label"], high=low, has_high=has_end)
 
 
 def _value(end: Term, named: Term, subject: Term) -> float | None:
@@ -225,12 +262,14 @@ def _covers(bins: Sequence[_Bin]) -> bool:
 
 def _divided(asked: AskedWords) -> str | None:
     """The one of two opposites that a named dividing line leaves."""
-    found = _DIVIDED.fullmatch(asked.words)
-    either = _EITHER.search(found["rest"]) if found else None
-    line = asked.term(found["n"]) if found else None
-    if either is None or line is None or found is None or _OTHER.search(found["rest"]):
+    found = _DIVIDED.search(asked.words)
+    if found is None:
         return None
-    subject = _subject(line, found["rest"])
+    rest = f"{asked.words[: found.start()]} {asked.words[found.end() :]}"
+    either, line = _EITHER.search(rest), asked.term(found["n"] or found["m"])
+    if either is None or line is None or _OTHER.search(rest):
+        return None
+    subject = _subject(line, rest)
     value = _value(line, line, subject) if subject else None
     if subject is None or value is None:
         return None

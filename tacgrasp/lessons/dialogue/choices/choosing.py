@@ -70,7 +70,7 @@ _NO_CHOICE = re.compile(
 def chosen(question: str) -> Calculated | None:
     """What a question means that names alternatives; None where it says something else too."""
     asked = asked_words(spelled(question))
-    if truth := binned(asked):
+    if truth := binned(question, asked):
         return chosen_by(truth, question)
     if truth := named_or_none(asked):
         return chosen_by(truth, question)
@@ -282,6 +282,14 @@ def _center(asked: AskedWords, offer: Offer, rest: RestOfQuestion) -> str | None
     return choice_of((offer.said["centered"], "position == 'centered'"), (offer.said["off"], ""))
 
 
+def _sign(asked: AskedWords, offer: Offer, rest: RestOfQuestion) -> str | None:
+    """Whether one coordinate is positive."""
+    names = [term.expression for term in rest.terms]
+    if len(names) != 1 or names[0] not in ("x_mm", "y_mm") or not rest.has_only("x", "y", "place"):
+        return None
+    return choice_of((offer.said["positive"], f"{names[0]} > 0"), (offer.said["negative"], ""))
+
+
 def _slip(asked: AskedWords, offer: Offer, rest: RestOfQuestion) -> str | None:
     """Whether the grip surely holds a named mass, or the given one."""
     loads = [term for term in rest.terms if term.expression != "force_n"]
@@ -303,6 +311,7 @@ _READERS: Sequence[tuple[WordScale, Reader]] = (
     (scales.COVERED, _covered),
     (scales.TOUCH, _touch),
     (scales.SLIP, _slip),
+    (scales.SIGN, _sign),
     (scales.CENTER, _center),
     (scales.CUT, _cut),
     (scales.LIMIT, _limit),

@@ -26,7 +26,10 @@ NamedClass = tuple[str, Mapping[str, str]]
 
 _DIMENSIONS = ("shape", "texture")
 _SURFACE = re.compile(r"\b(?:texture|surface|finish|relief|feels?)\b")
-_KIND = r"(?:shape|form|one|kind|texture|finish|surface|thing|outline|pattern|class)"
+_KIND = (
+    r"(?:shape|form|one|kind|category|type|label|texture|finish|surface|thing|outline|pattern|"
+    r"class)"
+)
 _NONE = re.compile(
     rf" ?(?:or|and) (?:(?:is it |more |rather |is this |it is |just )*(?:like )?)"
     rf"(?P<said>none(?: of (?:these|those|them|the (?:above|lot|#\d+)))?|"
@@ -48,6 +51,7 @@ _OBJECT = re.compile(
 )
 _NEUTRAL = re.compile(
     rf"\b(?:(?:looks?|feels?|seems?|felt) like|like|match(?:es)?|resembles?|belongs? to|"
+    r"which is it|that you feel|pick|choose|select|(?:have|has) (?:i|we|you) got|got|category|"
     rf"dealing with|against|make of|pressed|pressing|imprint|shape|form|{_KIND}|"
     r"would fit|fits?|describes?|"
     r"call(?:ed)?|names?|best|which of (?:these|those|them|the following)|relief)\b"
@@ -75,7 +79,7 @@ def named_or_none(asked: AskedWords) -> str | None:
         return None
     listed, end = _listed(words, out.start())
     dimension = _dimension(listed, words)
-    if dimension is None or words[end : out.start()].strip():
+    if dimension is None or words[end : out.start()].strip() not in ("", "here", "now", "there"):
         return None
     if out["denied"] and (len(listed) > 1 or out["same"] != listed[0][0]):
         return None

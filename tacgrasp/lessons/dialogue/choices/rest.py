@@ -64,11 +64,11 @@ _CUES = {
     "larger": (
         r"larger|bigger|greater|more|most(?:ly)?|main(?:ly)?|further|farther|furthest|worse|"
         r"worst|stronger|chiefly|largely|primarily|predominantly|larger part|greater part|"
-        r"bigger part|bulk|largest|greatest|biggest|dominates?|dominant"
+        r"bigger part|predominates?|bulk|largest|greatest|biggest|dominates?|dominant"
     ),
     "smaller": r"smaller|less(?:er)?|smallest|least",
     "middle": (
-        rf"(?:in |to |of |into |at |on |onto )?(?:the )?(?:dead |very |exact )?(?:middle|"
+        rf"(?:in |to |of |into |at |on |onto )?(?:the )?(?:dead |very |exact |re )?(?:middle|"
         rf"center(?:ed)?|midline|midpoint|halfway (?:line|mark))(?: line)?"
         rf"(?: of (?:the |our )?{_PAD})?"
     ),
@@ -116,7 +116,7 @@ _FILLER = re.compile(
     r"(?:if|when|once) (?:i|we|you|the robot) (?:raise|lift|move|hoist) (?:up )?(?:it|"
     r"the (?:arm|hand|robot|gripper))(?: up| off)?|"
     r"with (?:this|that|the present|the current) (?:grip|force)|"
-    r"given|stated|told|known|status|state|hanging|some|my|got|ought|reach|hit|arrive|achieve|"
+    r"describes?|fits|applies|beneath|surface|sign|given|stated|told|known|status|state|hanging|some|my|got|ought|reach|hit|arrive|achieve|"
     r"anything|got hold of|felt|feel|feeling|feels|actual|present|current|true|real|whole|overall|"
     r"total|both|"
     r"(?:for (?:the |my |our |this |a )?(?:[a-z]+ ){0,2})?(?:chart|log|logbook|report|form|sheet|"

@@ -275,6 +275,7 @@ LIMIT = WordScale(
         ),
     }
 )
+SIGN = WordScale({"positive": r"positive|plus", "negative": r"negative|minus"})
 CENTER = WordScale(
     {
         "centered": r"(?:dead |well )?cent(?:er|ered|ral)|(?:in the )?(?:dead )?middle",

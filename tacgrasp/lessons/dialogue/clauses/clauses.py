@@ -9,7 +9,7 @@ import re
 
 from tacgrasp.lessons.dialogue.clauses.items import item_of
 from tacgrasp.lessons.dialogue.clauses.lists import Reader, listed
-from tacgrasp.lessons.dialogue.clauses.thresholds import kept
+from tacgrasp.lessons.dialogue.clauses.thresholds import kept, range_kept
 from tacgrasp.lessons.dialogue.clauses.unfelt import unfelt_query
 from tacgrasp.lessons.dialogue.clauses.verdicts import judged
 from tacgrasp.lessons.dialogue.meaning import Meaning, Part
@@ -58,7 +58,12 @@ def clauses_of(question: str, read: Reader) -> Meaning | None:
     """
     if any(each.search(question) for each in (_NOT_SO, _MORE_BESIDE, _TO_THE_LIMIT)):
         return None
-    if meaning := judged(question) or kept(question) or listed(question, read):
+    if (
+        meaning := range_kept(question)
+        or judged(question)
+        or kept(question)
+        or listed(question, read)
+    ):
         return meaning
     if _OPEN.match(question) and _is_single(item := item_of(question)):
         return item

@@ -31,7 +31,8 @@ _SETTING = words_of(
     "asked agreed demand demands require requires required requirement promised bruise bruises "
     "break breaks crack cracks burst bursts tear tears damage damaged damages fragile delicate "
     "maximum minimum max min drawing calls calling must should order sheet says manual data that "
-    "this prefer insist insists strict strictly hard upper lower per"
+    "though although while was "
+    "were i me we this prefer insist insists strict strictly hard upper lower per"
 )
 _IT = (
     r"(?:it|that|this|those|them|the (?:limit|mark|figure|number|value|line|threshold|cap|ceiling|"
@@ -41,7 +42,10 @@ _IT = (
 )
 _WE = r"(?:we|you|i|it|this|the (?:grip|force|contact|touch|gripper|robot|squeeze|reading|press))"
 _VERB = r"(?:is|are|am|have|has|do|does|did|was|were|will|would|can|could)"
-_STILL = r"(?:still |now |already |currently |really |staying |being |gone |been |indeed |both )*"
+_STILL = (
+    r"(?:still |in fact |measure |feel |measuring |feeling |now |already |currently |really |"
+    r"staying |being |gone |been |indeed |both )*"
+)
 _OVER = re.compile(
     rf"(?:{_VERB} {_WE} )?{_STILL}(?:exceed(?:ed|ing)?|over|above|past|beyond|surpass(?:ed|ing)?|"
     rf"passed|overshot|more than|higher than|gone over|topping)(?: {_IT})?(?: (?:now|already|yet))*"
@@ -115,6 +119,7 @@ _RANGE = re.compile(
     rf"up to) "
     rf"(?P<high>#2 (?P<unit>{UNIT}))(?P<after>(?: [a-z]+)*)"
 )
+_ONLY_A_TAG = re.compile(rf"{_VERB}(?: not)? {_WE}")
 _NO_RANGE = re.compile(
     r"\b(?:not|never|except|x|y|offset|center|middle|limit|off|edge|apart|difference|if|or)\b"
 )
@@ -138,7 +143,20 @@ def kept(question: str) -> Calculated | None:
         if "#" in asked or not asked:
             continue
         setting, numbers = numbered(text[: joint.start()])
-        if truth := _in_range(setting, numbers, asked) or _truth(setting, numbers, asked):
+        if truth := _truth(setting, numbers, asked):
+            return Calculated(truth=truth, unit=None)
+    return None
+
+
+def range_kept(question: str) -> Calculated | None:
+    """Whether a range that a sentence aims at is kept or missed; None of other questions."""
+    text = " ".join(question.split())
+    for joint in reversed(list(_PARTS.finditer(text))):
+        asked = numbered(text[joint.end() :])[0]
+        if "#" in asked or _ONLY_A_TAG.fullmatch(asked):
+            continue
+        setting, numbers = numbered(text[: joint.start()])
+        if truth := _in_range(setting, numbers, asked):
             return Calculated(truth=truth, unit=None)
     return None
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from tacgrasp.lessons.dialogue.expression import Expression, TruthValue
 from tacgrasp.lessons.dialogue.facts import UNTOUCHED_NAMES
 from tacgrasp.lessons.dialogue.meaning import AnswerKind
-from tacgrasp.lessons.dialogue.quantities import GRAVITY_N_PER_G
+from tacgrasp.lessons.dialogue.quantities import GRAVITY_N_PER_G, UNITS
 from tacgrasp.lessons.dialogue.scene import NAMES, AskedScene
 from tacgrasp.lessons.dialogue.scoring.answer_reading import AnswerReading, Measured, read_answer
 from tacgrasp.lessons.dialogue.scoring.question_file import UNDECIDABLE, QuestionRow
@@ -165,6 +165,8 @@ def _converted(
     area_mm2 = 100.0 if scene is None else scene.sensor.area_mm2
     factors = {(dimension, dimension): 1.0}
     factors["mass", "force"] = GRAVITY_N_PER_G
+    if all(math.isclose(number.size, UNITS["kgf"].size) for number in numbers):
+        factors["force", "mass"] = 1 / GRAVITY_N_PER_G
     factors["area", "fraction"] = 100 / area_mm2
     factors["fraction", "ratio"] = 0.01
     factors["", "ratio"] = 1.0

@@ -24,14 +24,14 @@ def dimension_of(truth: Expression) -> str:
     number, percent. A mass times what a gram weighs is a force, and a force over it a mass; so of
     the force that holds a gram. The root of an area is a length, a force over an area a pressure.
     """
+    if set(truth.names) == {"force_n", "area_mm2"} and "/" in truth.text:
+        return "pressure"
     if truth.is_percentage:
         return "fraction"
     if "gram_n" in truth.names and set(truth.names) <= {"mass_g", "gram_n", *_FORCES}:
         return "mass" if _OVER_GRAM.search(truth.text) else "force"
     if truth.names == ("area_mm2",) and re.search(r"sqrt|\*\* ?0?\.5", truth.text):
         return "length"
-    if set(truth.names) == {"force_n", "area_mm2"} and "/" in truth.text:
-        return "pressure"
     dimensions = [next(filter(None, map(_dimension_of_name, names)), "") for names in truth.divided]
     has_gravity = any(map(_is_gravity, truth.numbers))
     if has_gravity and set(dimensions) == {"force", "mass"}:
@@ -68,8 +68,10 @@ def scale_of(truth: Expression) -> float:
 
 
 def _factor(truth: Expression) -> float:
-    """What the first quantity of a sum is multiplied with; 0 where that is no number."""
+    """What the first quantity is multiplied with, of a sum or of a pressure; 0 of a word."""
     zeros = dict.fromkeys(truth.names, 0.0)
+    if dimension_of(truth) == "pressure":
+        zeros["area_mm2"] = 1.0
     try:
         values = [truth.evaluate(each).value for each in (zeros, {**zeros, truth.names[0]: 1.0})]
     except ValueError:  # it compares a word

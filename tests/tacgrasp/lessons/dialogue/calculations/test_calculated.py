@@ -55,6 +55,12 @@ NUMBERS = [
     ("Suppose another 0.3 N came on top: what would it be?", "force_n + 0.3", "N"),
     ("If the object slid 2 mm to the right, what would x be?", "x_mm + 2", "mm"),
     ("What is the ratio of force to depth, in N/mm?", "force_n / depth_mm", "N/mm"),
+    ("Average psi under the thing you're touching?", "force_n / area_mm2", "psi"),
+    (
+        "How many newtons fall on each square centimetre of the contact?",
+        "force_n / area_mm2",
+        "N/cm²",
+    ),
     ("Newtons per millimetre of indentation, please.", "force_n / depth_mm", "N/mm"),
     ("How far is the contact from the right edge?", "pad_width_mm / 2 - x_mm", "mm"),
     (
@@ -66,7 +72,8 @@ NUMBERS = [
     ("How much clearance is there to the top rim of the pad?", "pad_height_mm / 2 - y_mm", "mm"),
     ("How high is the pad?", "pad_height_mm", "mm"),
     ("The limit is how many times as big as the force?", "limit_n / force_n", ""),
-    ("Of every hundred parts of the pad, how many are touched?", "100 * area_percent / 100", ""),
+    ("Of every hundred parts of the pad, how many are touched?", "area_percent", "%"),
+    ("Of every ten parts of the pad, how many are touched?", "10 * area_percent / 100", ""),
     ("Force divided by the weight of the object?", "force_n / (0.00980665 * mass_g)", ""),
     ("If the gel were 4 mm thick, what percentage of it is pressed in?", "100 * depth_mm / 4", "%"),
     (
@@ -137,10 +144,7 @@ CHECKS = [
     ("Are we past the halfway mark to the limit?", "force_n > 0.5 * limit_n"),
     ("Does the patch fit inside ten percent of the sensing area?", "area_percent <= 0.1 * 100"),
     ("Is x smaller than y, leaving signs aside?", "abs(x_mm) < abs(y_mm)"),
-    (
-        "Could another newton be piled on top without going past the cap?",
-        "limit_n - force_n >= 1",
-    ),
+    ("Has the force yet to get past 500 mN?", "not (force_n > 0.5)"),
     (
         "Isn't the force, one way or the other, outside of what was agreed?",
         "not (band_low_n <= force_n <= band_high_n)",
@@ -163,6 +167,10 @@ CHOICES = [
         "'1 N' if abs(force_n - 1) < abs(force_n - 2) else '2 N'",
     ),
     ("Over or under 4 N?", "'over' if force_n > 4 else 'under'"),
+    (
+        "Of the two, the limit and the force, which is the greater?",
+        "'limit' if limit_n > force_n else 'force'",
+    ),
     (
         "One newton or five newtons: to which of these is the force closer?",
         "'1 N' if abs(force_n - 1) < abs(force_n - 5) else '5 N'",
