@@ -139,6 +139,14 @@ _THOU = re.compile(r"\bthousandths? of an inch\b", re.I)
 _NUMERO = re.compile(r"\b(serial|phone|part|item|order|batch|lot|model) no\.", re.I)
 """'Serial no. of the part'."""
 
+_HAPPENS = re.compile(
+    r"^(?:you )?(?:would(?:n['’]t)?|do(?:n['’]t)?|might) (?:you )?(?:not )?(?:by (?:any )?chance )?"
+    r"happen to (?:be )?(?:holding|hold|have|touching|touch|feeling|feel|gripping|grip) "
+    r"(?=an? |any|something )",
+    re.I,
+)
+"""'You wouldn't happen to be holding something round?', which asks whether it is."""
+
 _QUOTED = r"['\"“‘](?P<{}>[a-z]+(?:[ -][a-z]+)?)['\"”’]"
 _WORD_FITS = re.compile(
     rf"{AUXILIARY}(?:n['’]t)? {_QUOTED.format('a')} (?:be )?(?:the|an?|your) (?:right |correct |"
@@ -146,6 +154,9 @@ _WORD_FITS = re.compile(
     r"(?:word|term|label|adjective|description)\b[^?]*\??|"
     rf"{AUXILIARY}(?:n['’]t)? (?:the |that |this )?(?:word|term|label|adjective|description) "
     rf"{_QUOTED.format('b')} [^?]*\??|"
+    rf".*\b(?:earns?|deserves?|merits?|gets?|fits?|matches|warrants?) (?:the )?(?:word|term|label|"
+    rf"grade|name|"
+    rf"description) {_QUOTED.format('d')}[^?]*\??|"
     rf"{_QUOTED.format('c')}\W+(?:{AUXILIARY}) (?:that|this|it) (?:(?:the|a|your) )?(?:right |"
     rf"correct )?"
     r"(?:word|term|label|adjective|description)\b[^?]*\??",
@@ -199,8 +210,9 @@ def plainer(question: str) -> str:
     if opening := _ADDRESS.match(text):
         text = text[opening.end() :]
     text = _ADDED.sub("", _POLITE_VERB.sub("", text, count=1))
+    text = _HAPPENS.sub("is it ", text)
     if fits := _WORD_FITS.fullmatch(text):
-        text = f"is it {fits['a'] or fits['b'] or fits['c']}?"
+        text = f"is it {fits['a'] or fits['b'] or fits['c'] or fits['d']}?"
     text = _AS_REFERENCE.sub(r"\g<asks> \g<mark>\g<rest>", text)
     if rounded := _ROUNDED.search(text):
         rest = f"{text[: rounded.start()]}{text[rounded.end() :]}"

@@ -198,6 +198,12 @@ _QUANTITIES: Mapping[str, Quantity] = {
         is_signed=True,
     ),
 }
+GIVEN = frozenset(
+    {"band_low", "band_high", "limit", "needed", "mass", "band_middle", "band_width",
+     "band_to_limit"}
+)  # fmt: skip
+"""Quantities that nobody feels: exact ones."""
+
 MULTIPLIED = ("force", "depth", "holds")
 """Quantities whose multiples can be asked for."""
 
@@ -217,7 +223,8 @@ def amount_text(
 ) -> str:
     """A value of a quantity, given in the quantity's own unit, as text in another unit.
 
-    The value is rounded in its own unit first, as captions round it.
+    The value is rounded in its own unit first, as captions round it; what is given, and not felt,
+    has a digit more where that would be more than a hundredth off.
 
     Args:
         name: Name of the quantity.
@@ -227,22 +234,28 @@ def amount_text(
         is_signed: Whether a plus is shown, whatever the quantity.
     """
     quantity = QUANTITIES[name]
+    decimals_shown = quantity.decimals + (name in GIVEN and _is_coarse(value, quantity.decimals))
     sign = "+" if is_signed or quantity.is_signed else ""
     if unit == "%":
         return f"{sign if value >= 0 else '-'}{percent_text(abs(value))} %"
-    shown = round(value, quantity.decimals) + 0.0  # no minus before zeros
+    shown = round(value, decimals_shown) + 0.0  # no minus before zeros
     written = UNITS[unit].written or unit
     if unit == quantity.unit:
-        return f"{shown:{sign}.{quantity.decimals}f} {unit}"
+        return f"{shown:{sign}.{decimals_shown}f} {unit}"
     converted = _in_unit(quantity, value if UNITS[unit].dimension == "area" else shown, unit, scene)
     size = 1 / _in_unit(quantity, 1.0, unit, scene)
     if unit in ("cm²", "in²"):
         decimals = 2 if abs(converted) >= 0.1 else 3
     elif size > 1 and unit != "mm²":
-        decimals = quantity.decimals + math.ceil(math.log10(size) - 1e-9)
+        decimals = decimals_shown + math.ceil(math.log10(size) - 1e-9)
     else:
         decimals = 0 if abs(converted) >= 10 else 1
     return f"{converted:{sign}.{decimals}f} {written}"
+
+
+def _is_coarse(value: float, decimals: int) -> bool:
+    """Whether rounding changes a value by more than a hundredth of it."""
+    return abs(round(value, decimals) - value) > 0.01 * abs(value)
 
 
 def value_text(value: float, unit: str) -> str:
@@ -257,8 +270,12 @@ def value_text(value: float, unit: str) -> str:
     one, _, each = unit.partition("/")
     size = known.size if known else UNITS[one].size / UNITS[each].size if each else 1.0
     base = 0 if known and known.dimension == "mass" else 2 if abs(value) >= 0.1 else 3
+    if known and known.dimension == "force" and abs(value) < 1:
+        base = 3
     decimals = max(0, base + round(math.log10(size)))
     told = abs(value / size)
+    if known and known.dimension == "mass" and 0 < told < 100:
+        decimals = max(0, 2 - math.floor(math.log10(told)))
     is_rate = bool(each and not known) or (known is not None and known.dimension == "pressure")
     if is_rate and told > 0 and (told < 1 or known is not None or decimals == 0):
         decimals = max(0, 2 - math.floor(math.log10(told)))

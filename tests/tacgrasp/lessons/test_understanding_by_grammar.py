@@ -323,12 +323,13 @@ def test_what_has_no_band_is_said_to_have_none_beside_what_is_felt(question, tex
     assert answered(understood(Refusing(), question), scene).answer.text == text
 
 
-def test_a_pressure_is_not_guessed():
+def test_a_pressure_is_the_force_over_the_area_and_not_put_to_the_model():
     class Silent(Refusing):
         def reply_to(self, touch, prompt, *, grammar):
             raise AssertionError("a pressure was put to the model")
 
-    assert understood(Silent(), "Is the pressure above 10 kPa?") is None
+    read = understood(Silent(), "Is the pressure above 10 kPa?")
+    assert read.query == "calculate force_n / area_mm2 > 0.01."
 
 
 @pytest.mark.parametrize(

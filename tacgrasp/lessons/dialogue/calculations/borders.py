@@ -13,7 +13,7 @@ import re
 from collections.abc import Mapping
 
 from tacgrasp.lessons.dialogue.calculations.asked import AskedWords
-from tacgrasp.lessons.dialogue.calculations.phrases import is_made_of
+from tacgrasp.lessons.dialogue.calculations.phrases import AGAINST, SIGNS, is_made_of
 from tacgrasp.lessons.dialogue.calculations.quantity_names import UNIT
 from tacgrasp.lessons.dialogue.calculations.terms import Term
 from tacgrasp.lessons.dialogue.meaning import Calculated
@@ -54,12 +54,7 @@ _OF_DISTANCE = (
     r"downwards|leftward|rightward|"
     r"leftwards|rightwards|sideways|horizontally|vertically|measuring|counting|height|high|find|found|located|down)"
 )
-_AGAINST = re.compile(
-    r"\b(?:(?P<more>(?:more|further|farther|greater) than|over|beyond)|"
-    r"(?P<less>(?:less|fewer|nearer|closer|smaller) than|under|within)|"
-    rf"(?P<least>at least|no less than)|(?P<most>at most|no more than)) (?P<by>{_LONG})\b"
-)
-_SIGNS: Mapping[str, str] = {"more": ">", "less": "<", "least": ">=", "most": "<="}
+_AGAINST = re.compile(rf"\b(?:{AGAINST}) (?P<by>{_LONG})\b")
 _VERB = re.compile(r"(?:is|are|does|do|has|have|will|would) ")
 _PAD_IS = re.compile(
     rf"how (?:(?P<wide>wide|broad)|high|tall) is (?:(?:the|your|this|our) )?{_PAD}"
@@ -92,7 +87,7 @@ def border_check(asked: AskedWords) -> Calculated | None:
         return None
     if not is_made_of(f"{words[: found.start()]} {words[found.end() :]}", _OF_DISTANCE):
         return None
-    sign = next(sign for name, sign in _SIGNS.items() if against[name])
+    sign = next(sign for name, sign in SIGNS.items() if against[name])
     return Calculated(truth=f"{_distance(found).expression} {sign} {by.factor}", unit=None)
 
 

@@ -7,6 +7,7 @@ from tacgrasp.lessons.dialogue.calculations.asked import asked_words
 from tacgrasp.lessons.dialogue.calculations.borders import border_check
 from tacgrasp.lessons.dialogue.calculations.checks import calculated_check
 from tacgrasp.lessons.dialogue.calculations.choices import calculated_choice
+from tacgrasp.lessons.dialogue.calculations.footprints import pressure_check
 from tacgrasp.lessons.dialogue.calculations.loads import needs_more
 from tacgrasp.lessons.dialogue.calculations.suppositions import supposed, supposes
 from tacgrasp.lessons.dialogue.expression import Expression
@@ -19,7 +20,8 @@ def calculated(question: str) -> Calculated | None:
     if (meaning := supposed(asked)) or supposes(asked):
         return meaning if meaning and _is_sound(meaning.truth) else None
     for reader in (
-        needs_more, calculated_choice, calculated_amount, border_check, calculated_check,
+        needs_more, calculated_choice, calculated_amount, border_check, pressure_check,
+        calculated_check,
     ):  # fmt: skip
         if (meaning := reader(asked)) and _is_sound(meaning.truth):
             return meaning

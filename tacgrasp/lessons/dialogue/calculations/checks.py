@@ -57,7 +57,7 @@ _COMPARED = tuple(
 )
 _NEARER = re.compile(
     rf"(?P<a>.+?)(?: {_ADVERB})*(?: {_BE})? (?:closer|nearer)(?: to)? (?P<b>.+) than "
-    rf"(?:to |it is to )?(?P<c>.+)"
+    rf"(?P<to>to |it is to )?(?P<c>.+)"
 )
 _PUSHED = re.compile(
     r"(?:we|you|i|it|the gripper)(?: are| is)? (?:(?:push|press|squeez|gripp?)(?:ing|es|e|"
@@ -228,7 +228,7 @@ def condition_of(asked: AskedWords, words: str) -> str | None:
             _pair(asked, found["a"], each) for each in shared_noun(asked, found["b"], found["c"])
         ]
         apart = [f"abs({pair[0].expression} - {pair[1].factor})" for pair in pairs if pair]
-        if len(pairs) == 2 and pairs[0] and not pairs[0][1].has_quantity:
+        if not found["to"] and pairs[0] and not pairs[0][1].has_quantity:
             others = _pair(asked, found["c"], found["b"])  # 'y nearer to zero than x'
             if others and others[0].has_quantity:
                 apart[1:] = [f"abs({others[0].expression} - {others[1].factor})"]

@@ -11,8 +11,10 @@ from __future__ import annotations
 import re
 
 from tacgrasp.lessons.dialogue.calculations.asked import AskedWords
-from tacgrasp.lessons.dialogue.calculations.phrases import is_made_of
+from tacgrasp.lessons.dialogue.calculations.phrases import AGAINST, SIGNS, is_made_of
+from tacgrasp.lessons.dialogue.calculations.quantity_names import UNIT
 from tacgrasp.lessons.dialogue.calculations.terms import Term
+from tacgrasp.lessons.dialogue.meaning import Calculated
 from tacgrasp.lessons.dialogue.quantities import UNITS
 
 _ROUND = re.compile(r"\b(?:circle|circular|disc|disk|round|dot|coin)\b")
@@ -68,6 +70,10 @@ _OF_PRESSURE = (
 )
 
 
+_AGAINST_PRESSURE = re.compile(rf"\b(?:{AGAINST}) (?P<by>#\d+ (?:{UNIT}))(?= |$)")
+_BESIDE_PRESSURE = re.compile(r"\b(?:pressure|push\w*|press\w*|force|squeez\w*|load|stress)\b")
+
+
 def pressure(asked: AskedWords) -> Term | None:
     """The force over the area of contact."""
     unit = UNITS.get(asked.unit)
@@ -92,6 +98,18 @@ def pressure(asked: AskedWords) -> Term | None:
     return force and Term(
         expression=f"{force.factor} / area_mm2", dimension="pressure", words="", unit=""
     )
+
+
+def pressure_check(asked: AskedWords) -> Calculated | None:
+    """Whether the force over the area of contact is more or less than so much."""
+    found = _AGAINST_PRESSURE.search(asked.words)
+    if found is None or len(asked.numbers) > 1 or not _BESIDE_PRESSURE.search(asked.words):
+        return None
+    bound = asked.term(found["by"])
+    if bound is None or bound.dimension != "pressure":
+        return None
+    sign = next(sign for name, sign in SIGNS.items() if found[name])
+    return Calculated(truth=f"force_n / area_mm2 {sign} {bound.factor}", unit=None)
 
 
 def circle(asked: AskedWords) -> Term | None:

@@ -47,6 +47,15 @@ REACHES = (
 )
 """Verbs between a term and what it is at least as much as."""
 
+AGAINST = (
+    r"(?P<more>(?:more|further|farther|greater|higher) than|over|beyond|above|exceed(?:s|ing)?)|"
+    r"(?P<less>(?:less|fewer|nearer|closer|smaller|lower) than|under|within|below)|"
+    r"(?P<least>at least|no less than)|(?P<most>at most|no more than)"
+)
+"""Before a number that something is more or less than; the groups are those of ``SIGNS``."""
+
+SIGNS = {"more": ">", "less": "<", "least": ">=", "most": "<="}
+
 PARTS = r"(?:percent|percentage|share|fraction|part|proportion)"
 """Words of a share."""
 

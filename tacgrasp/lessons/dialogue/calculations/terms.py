@@ -91,7 +91,7 @@ _TRAILING = re.compile(
     r"(?: (?:from here|right now|just now|now|at (?:this|the present) moment|currently|presently|"
     r"at present|at the moment|here|"
     r"instead|today|itself|as felt|as measured|in size|value|figure|reading|"
-    r"on (?:the )?(?:pad|gel)|(?:that )?(?:you|we|i)(?: are| am)? "
+    r"on (?:the )?(?:pad|gel)|(?<!what )(?:that )?(?:you|we|i)(?: are| am)? "
     r"(?:feel|have|read|see|press|apply|measur|us|squeez|exert)(?:e|"
     r"ing)?(?: (?:with|now|there|here|on it))*|(?:that )?(?:the (?:gel|pad|skin)|it) "
     r"(?:can|could|may|will) (?:take|go|do|bear|give|squish|stand|offer|be pressed(?: in)?)|"

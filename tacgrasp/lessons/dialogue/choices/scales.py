@@ -21,7 +21,8 @@ MOST_BETWEEN = 12
 _OR = re.compile(r"\b(?:or|versus|vs|nor)\b")
 _OPENING = re.compile(
     r"(?: (?:is|are|was|does|do|it|that|this|they|we|rather|instead|more|on|in|at|to|of|by|as|with|"
-    r"towards?|the|a|an|its|our|am|i|still|already|just|only|mostly|mainly|chiefly|largely|primarily|maybe|perhaps|should|"
+    r"towards?|the|a|an|its|our|am|i|still|already|just|only|mostly|mainly|chiefly|largely|"
+    r"primarily|maybe|perhaps|should|"
     r"must|shall|nearer|closer|further|farther|off|force|being|be|too|along|if|from|"
     r"will|would|can|could|might|under|"
     r"#\d+|percent|mm|n|g|millimetres?|newtons?|grams?|and))* ?"
@@ -141,7 +142,8 @@ COMPARED = WordScale(
         ),
         "less": (
             r"under|below|less|shallower|lighter|smaller|lower|lesser|weaker|softer|gentler|"
-            r"shorter|narrower|thinner|nearer|closer|falls? short|short|shy|beneath|fewer|looser"
+            r"within|shorter|narrower|thinner|nearer|closer|falls? short|short|shy|beneath|fewer|"
+            r"looser"
         ),
     }
 )

@@ -154,6 +154,11 @@ CHECKS = [
         "not (force_n > 2) and not (depth_mm > 1)",
     ),
     (
+        "Is the force closer to zero than it is to the limit?",
+        "abs(force_n - 0) < abs(force_n - limit_n)",
+    ),
+    ("Does the push make for more than 40 kPa?", "force_n / area_mm2 > 0.04"),
+    (
         "Is the force nearer to the lower end of the band than to the upper one?",
         "abs(force_n - band_low_n) < abs(force_n - band_high_n)",
     ),

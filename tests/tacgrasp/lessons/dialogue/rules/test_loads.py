@@ -32,7 +32,7 @@ from tests.fakes.question_scenes import HELD
         ),
         (
             "How much force is needed for 10 g and 50 g?",
-            "The force that surely holds 10 g is 0.21 N; "
+            "The force that surely holds 10 g is 0.205 N; "
             "the force that surely holds 50 g is 1.03 N.",
         ),
     ],
