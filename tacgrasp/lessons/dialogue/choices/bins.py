@@ -37,7 +37,7 @@ _ABOVE = (
 )
 _FROM = r"from|at least|no less than|upwards? of|starting (?:at|from)"
 _HEAD = (
-    r"(?:(?:for|if|when|where|is|are|being|means?|meaning|as|at|with|with|anything|everything|"
+    r"(?:(?:for|if|when|where|is|are|being|means?|meaning|as|at|with|anything|everything|"
     r"all|whatever|what|it|that|they|of|values?|forces?|depths?|areas?|masses|weights?|readings?|"
     r"parts?|things?|objects?|items?|pieces?|grips?|dents?|prints?|patches|presses|contacts?) )*?"
 )
