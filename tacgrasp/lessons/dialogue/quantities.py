@@ -261,23 +261,22 @@ def _is_coarse(value: float, decimals: int) -> bool:
 def value_text(value: float, unit: str) -> str:
     """A calculated value, given in mm, N, percent, mm², g or N/mm², as text in a unit.
 
-    The unit is '' for a ratio, and may be a quotient of two ('N/mm'). Pressures and small
-    quotients have three figures.
+    The unit is '' for a ratio, and may be a quotient of two ('N/mm'). Pressures, masses
+    and small quotients have three figures.
     """
     if unit == "%":
         return f"{'-' if value < 0 else ''}{percent_text(abs(value))} %"
     known = UNITS.get(unit)
     one, _, each = unit.partition("/")
     size = known.size if known else UNITS[one].size / UNITS[each].size if each else 1.0
-    base = 0 if known and known.dimension == "mass" else 2 if abs(value) >= 0.1 else 3
-    if known and known.dimension == "force" and abs(value) < 1:
-        base = 3
+    dimension = known.dimension if known else ""
+    has_two = abs(value) >= (1 if dimension == "force" else 0.1)
+    base = 0 if dimension == "mass" else 2 if has_two else 3
     decimals = max(0, base + round(math.log10(size)))
     told = abs(value / size)
-    if known and known.dimension == "mass" and 0 < told < 100:
-        decimals = max(0, 2 - math.floor(math.log10(told)))
-    is_rate = bool(each and not known) or (known is not None and known.dimension == "pressure")
-    if is_rate and told > 0 and (told < 1 or known is not None or decimals == 0):
+    is_rate = bool(each and not known) or dimension == "pressure"
+    is_small = dimension == "mass" and told < 100
+    if told > 0 and (is_small or (is_rate and (told < 1 or known is not None or decimals == 0))):
         decimals = max(0, 2 - math.floor(math.log10(told)))
     written = (known.written if known else "") or unit
     return f"{round(value / size, decimals) + 0.0:.{decimals}f} {written}".rstrip()

@@ -105,8 +105,7 @@ _ANSWERED = re.compile(
 _TAKING_G = re.compile(
     r" (?:use|take|taking|with|using) (?:g )?(?:as |of )?#\d+(?: (?:m|"
     r"n) (?:per )?\S+(?: #\d+)?)?(?: (?:for|"
-    r"as) g)?"
-    r"(?= name (?:that|the) number$|$)"
+    r"as) g)?$"
 )
 _ONE_MORE = re.compile(
     rf"\b(?:one (?:more|extra|additional|further)|(?:another|an extra|a further)(?: more)?) "
@@ -136,7 +135,7 @@ _GIVEN_MASS = re.compile(
     r"stated|told))$"
 )
 _REMARK = re.compile(
-    r" one way or (?:the other|another)\b| name (?:that|the) number$| (?:i|we) need (?:it|this|"
+    r" one way or (?:the other|another)\b| (?:i|we) need (?:it|this|"
     r"that|them) .*$| whichever (?:is|one is) \w+$"
 )
 _AMOUNT_OF = re.compile(

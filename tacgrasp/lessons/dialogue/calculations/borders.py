@@ -13,7 +13,7 @@ import re
 from collections.abc import Mapping
 
 from tacgrasp.lessons.dialogue.calculations.asked import AskedWords
-from tacgrasp.lessons.dialogue.calculations.phrases import AGAINST, SIGNS, is_made_of
+from tacgrasp.lessons.dialogue.calculations.phrases import AGAINST, is_made_of, sign_of
 from tacgrasp.lessons.dialogue.calculations.quantity_names import UNIT
 from tacgrasp.lessons.dialogue.calculations.terms import Term
 from tacgrasp.lessons.dialogue.meaning import Calculated
@@ -50,9 +50,10 @@ _OF_DISTANCE = (
     r"object|thing|item|berry|imprint|print|patch|center|middle|centroid|pad|gel|sensor|"
     r"now|currently|presently|measured|counted|separates?|separating|travel|travels|go|move|moved|"
     r"before|until|then|rather|than|still|we|i|you|touching|felt|where|straight|slide|slides|"
-    r"would|have to|it would|dividing|divides?|into|reckoned|taken|upward|upwards|downward|"
+    r"dividing|divides?|into|reckoned|taken|upward|upwards|downward|"
     r"downwards|leftward|rightward|"
-    r"leftwards|rightwards|sideways|horizontally|vertically|measuring|counting|height|high|find|found|located|down)"
+    r"leftwards|rightwards|sideways|horizontally|vertically|measuring|"
+    r"counting|height|high|find|found|located|down)"
 )
 _AGAINST = re.compile(rf"\b(?:{AGAINST}) (?P<by>{_LONG})\b")
 _VERB = re.compile(r"(?:is|are|does|do|has|have|will|would) ")
@@ -87,8 +88,9 @@ def border_check(asked: AskedWords) -> Calculated | None:
         return None
     if not is_made_of(f"{words[: found.start()]} {words[found.end() :]}", _OF_DISTANCE):
         return None
-    sign = next(sign for name, sign in SIGNS.items() if against[name])
-    return Calculated(truth=f"{_distance(found).expression} {sign} {by.factor}", unit=None)
+    return Calculated(
+        truth=f"{_distance(found).expression} {sign_of(against)} {by.factor}", unit=None
+    )
 
 
 def _distance(found: re.Match[str]) -> Term:

@@ -117,12 +117,6 @@ _ONE_OF = re.compile(
     r"greater|larger|smaller|exceed))"
 )
 _NOT_YET = re.compile(r"((?:has|have|is|are) (?:(?!#).)+? )yet to (?:get |go |come |rise |climb )?")
-_USED_UP = re.compile(
-    r"(?P<sign>more than|over|less than|under|at least|at most) (?P<b>.+?)(?: (?:been|be|got))? "
-    r"(?:used(?: up)?|spent|taken(?: up)?|consumed|exhausted|gone|reached)(?: already| by now|"
-    r" now)?"
-)
-_SIGN_OF = {"more than": ">", "over": ">", "at least": ">=", "at most": "<="}
 _JOINT = re.compile(r" (and|or) ")
 _BARE = re.compile(
     r"(?:pressed|pushed|squeezed|held|gripped|touched) with "
@@ -197,10 +191,6 @@ def condition_of(asked: AskedWords, words: str) -> str | None:
         pair = alike(left, rest) if rest else None
         sign = ">" if found["more"] else "<"
         return f"{pair[0].expression} {sign} {pair[1].factor}" if pair else None
-    if found := _USED_UP.fullmatch(words):
-        bound = asked.term(found["b"])
-        if bound and bound.dimension == "force" and bound.has_quantity:
-            return f"force_n {_SIGN_OF.get(found['sign'], '<')} {bound.factor}"
     found = next(filter(None, (each.fullmatch(words) for each in (_ROOM, _AFFORDED, _PILED))), None)
     if found and (pair := asked.pair("the limit", found["b"])):
         return f"{pair[0].expression} - force_n >= {pair[1].factor}"

@@ -11,11 +11,13 @@ from __future__ import annotations
 import re
 
 from tacgrasp.lessons.dialogue.calculations.asked import AskedWords
-from tacgrasp.lessons.dialogue.calculations.phrases import AGAINST, SIGNS, is_made_of
+from tacgrasp.lessons.dialogue.calculations.phrases import AGAINST, is_made_of, sign_of
 from tacgrasp.lessons.dialogue.calculations.quantity_names import UNIT
 from tacgrasp.lessons.dialogue.calculations.terms import Term
 from tacgrasp.lessons.dialogue.meaning import Calculated
 from tacgrasp.lessons.dialogue.quantities import UNITS
+
+_MEAN_PRESSURE = "force_n / area_mm2"
 
 _ROUND = re.compile(r"\b(?:circle|circular|disc|disk|round|dot|coin)\b")
 _SQUARE = re.compile(r"\bsquare\b")
@@ -45,11 +47,20 @@ _PRESSURE = re.compile(
     r"\b(?:pressure|stress|force (?:per|divided by|over|spread|shared|distributed)|"
     r"(?:divide|dividing|spread|spreading|distribute|distributing)\b.*\b(?:force|push|squeeze))\b"
 )
-_IN_PRESSURE = re.compile(
-    r"\b(?:psi|(?:hecto|kilo|mega)?pascals?|[hkm]?pa|millibars?|mbar|n per (?:sq|square) (?:cm|mm)|"
-    r"(?:how much|newtons?) .*\b(?:on|for|over|per) (?:each|every|an?|one) (?:square|sq) "
-    r"(?P<per>mm|millimet(?:re|er)|cm|centimet(?:re|er)))\b"
+_PER_SQUARE = re.compile(
+    r"\b(?:how much|newtons?) .*\b(?:on|for|over|per) (?:each|every|an?|one) (?:square|sq) "
+    r"(?:(?P<mm>mm|millimet(?:re|er))|cm|centimet(?:re|er))\b"
 )
+_AREA_OR_PRESSURE = re.compile(r"\b(?:area|patch|footprint|pressure|stress)\b")
+_OF_CONTACT = re.compile(
+    r"\b(?:contact|patch|touch\w*|pad|gel|footprint|area|grip|force|mean|average|averaged)\b"
+)
+_ELSEWHERE = re.compile(
+    r"\b(?:air|blood|water|oil|gas|hydraulic|pneumatic|suction|vacuum|atmospher\w+|barometric|room|"
+    r"weather|outside)\b"
+)
+"""What other pressures are of."""
+
 _IS_MEAN = re.compile(
     r"\b(?:mean|average|averaged|divid\w+|spread\w*|over|per|distribut\w+|shared|uniform\w*|"
     r"even\w*)\b"
@@ -78,38 +89,32 @@ def pressure(asked: AskedWords) -> Term | None:
     """The force over the area of contact."""
     unit = UNITS.get(asked.unit)
     is_asked = unit is not None and unit.dimension == "pressure"
-    words = asked.words
-    if asked.numbers:
+    words = re.sub(r" ?on average$", "", asked.words)
+    if asked.numbers or _ELSEWHERE.search(words):
         return None
-    if named := _IN_PRESSURE.search(words if not is_asked else f"{words} pa"):
-        per = (named["per"] or "")[:1]
-        unit_said = {"m": "N/mm²", "c": "N/cm²"}.get(per, "pressure")
-        return Term(expression="force_n / area_mm2", dimension=unit_said, words="")
-    if asked.unit and not is_asked:
-        return None
-    words = re.sub(r" ?on average$", "", words)
-    if not is_asked and not (_PRESSURE.search(words) and _IS_MEAN.search(words)):
-        return None
-    if not (is_asked or re.search(r"\b(?:area|patch|footprint|pressure|stress)\b", words)):
-        return None
-    if not is_made_of(words, _OF_PRESSURE):
-        return None
-    force = asked.term("force")
-    return force and Term(
-        expression=f"{force.factor} / area_mm2", dimension="pressure", words="", unit=""
-    )
+    if not is_asked and (found := _PER_SQUARE.search(words)):
+        per = "N/mm²" if found["mm"] else "N/cm²"
+        return Term(expression=_MEAN_PRESSURE, dimension=per, words="")
+    is_made = is_made_of(words, _OF_PRESSURE)
+    if is_asked:
+        is_meant = is_made or _OF_CONTACT.search(words) is not None
+    else:
+        said = (_PRESSURE, _IS_MEAN, _AREA_OR_PRESSURE)
+        is_meant = is_made and not asked.unit and all(each.search(words) for each in said)
+    return Term(expression=_MEAN_PRESSURE, dimension="pressure", words="") if is_meant else None
 
 
 def pressure_check(asked: AskedWords) -> Calculated | None:
     """Whether the force over the area of contact is more or less than so much."""
     found = _AGAINST_PRESSURE.search(asked.words)
-    if found is None or len(asked.numbers) > 1 or not _BESIDE_PRESSURE.search(asked.words):
+    if found is None or len(asked.numbers) > 1 or _ELSEWHERE.search(asked.words):
+        return None
+    if not _BESIDE_PRESSURE.search(asked.words):
         return None
     bound = asked.term(found["by"])
     if bound is None or bound.dimension != "pressure":
         return None
-    sign = next(sign for name, sign in SIGNS.items() if found[name])
-    return Calculated(truth=f"force_n / area_mm2 {sign} {bound.factor}", unit=None)
+    return Calculated(truth=f"{_MEAN_PRESSURE} {sign_of(found)} {bound.factor}", unit=None)
 
 
 def circle(asked: AskedWords) -> Term | None:

@@ -52,15 +52,20 @@ AGAINST = (
     r"(?P<less>(?:less|fewer|nearer|closer|smaller|lower) than|under|within|below)|"
     r"(?P<least>at least|no less than)|(?P<most>at most|no more than)"
 )
-"""Before a number that something is more or less than; the groups are those of ``SIGNS``."""
+"""Before a number that something is more or less than; ``sign_of`` tells which."""
 
-SIGNS = {"more": ">", "less": "<", "least": ">=", "most": "<="}
+_SIGNS = {"more": ">", "less": "<", "least": ">=", "most": "<="}
 
 PARTS = r"(?:percent|percentage|share|fraction|part|proportion)"
 """Words of a share."""
 
 IS = r"(?:is|are|am|was|would|does|do|did|will|has|have|lies|lie|stands?)"
 """Verbs between the terms of a question."""
+
+
+def sign_of(found: re.Match[str]) -> str:
+    """The comparison that a match of ``AGAINST`` states."""
+    return next(sign for name, sign in _SIGNS.items() if found[name])
 
 
 def is_made_of(words: str, used: str) -> bool:

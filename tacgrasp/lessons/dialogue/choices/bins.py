@@ -73,7 +73,6 @@ _VALUES_FIRST = re.compile(
     rf"counts? as|means?|makes?|gives?|say|(?:is|are) (?:called|named|counted as)|"
     rf"calls?(?: (?:it|that|them))?|goes (?:as|down as|under)) )?{_LABEL}(?= |$)"
 )
-_OTHERS = re.compile(rf"{_VALUES} {_LABEL}(?= |$)")
 _JOINT = re.compile(r" (?:(?:and|or|but|then|versus|vs) )*")
 _OTHER = re.compile(
     r"\b(?:if|not|never|how|why|limit|band|headroom|margin|offset|center|middle|distance|edge|x|y|"
@@ -103,7 +102,6 @@ _EITHER = re.compile(
     rf"\b(?:(?P<a>{_MORE_WORDS}) (?:or|and|versus|vs) (?:rather )?(?P<b>{_LESS_WORDS})|"
     rf"(?P<c>{_LESS_WORDS}) (?:or|and|versus|vs) (?:rather )?(?P<d>{_MORE_WORDS}))\b"
 )
-
 
 _GRADES = re.compile(
     rf"{_MORE_WORDS}|{_LESS_WORDS}|medium|mid|middle|middling|fair|normal|ok|okay|fine|good|bad|"
@@ -175,7 +173,7 @@ def _is_label(question: str, match: re.Match[str]) -> bool:
 def _row(words: str, pattern: re.Pattern[str], start: int) -> Sequence[re.Match[str]]:
     """Bins that stand one behind the other."""
     found: list[re.Match[str]] = []
-    while match := pattern.match(words, start) or (found and _OTHERS.match(words, start)):
+    while match := pattern.match(words, start) or (found and _VALUES_FIRST.match(words, start)):
         found.append(match)
         if (joint := _JOINT.match(words, match.end())) is None:
             break

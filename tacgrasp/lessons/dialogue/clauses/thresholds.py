@@ -11,6 +11,7 @@ Not here: rules that are stated and judged in one (``tacgrasp.lessons.dialogue.c
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 
 from tacgrasp.lessons.dialogue.calculations.asked import usual, usual_unit
 from tacgrasp.lessons.dialogue.calculations.quantity_names import UNIT
@@ -137,26 +138,23 @@ _SHARE_OF_LIMIT = re.compile(
 
 def kept(question: str) -> Calculated | None:
     """Whether a threshold that a sentence sets is kept or passed; None of other questions."""
+    return _judged(question, _truth)
+
+
+def range_kept(question: str) -> Calculated | None:
+    """Whether a range that a sentence aims at is kept or missed; None of other questions."""
+    return _judged(question, _in_range)
+
+
+def _judged(question: str, read: Callable[[str, tuple[float, ...], str], str]) -> Calculated | None:
+    """What is read of a sentence that sets something, its numbers, and the one that asks."""
     text = _NUMBERED_RULE.sub("", " ".join(question.split()))
     for joint in reversed(list(_PARTS.finditer(text))):
         asked = numbered(text[joint.end() :])[0]
         if "#" in asked or not asked:
             continue
         setting, numbers = numbered(text[: joint.start()])
-        if truth := _truth(setting, numbers, asked):
-            return Calculated(truth=truth, unit=None)
-    return None
-
-
-def range_kept(question: str) -> Calculated | None:
-    """Whether a range that a sentence aims at is kept or missed; None of other questions."""
-    text = " ".join(question.split())
-    for joint in reversed(list(_PARTS.finditer(text))):
-        asked = numbered(text[joint.end() :])[0]
-        if "#" in asked or _ONLY_A_TAG.fullmatch(asked):
-            continue
-        setting, numbers = numbered(text[: joint.start()])
-        if truth := _in_range(setting, numbers, asked):
+        if truth := read(setting, numbers, asked):
             return Calculated(truth=truth, unit=None)
     return None
 
@@ -165,6 +163,8 @@ def _in_range(setting: str, numbers: tuple[float, ...], asked: str) -> str:
     """Whether a range that somebody aims at is kept or missed; '' of other questions."""
     found = _RANGE.fullmatch(setting)
     if found is None or _NO_RANGE.search(setting) or len(numbers) != 2:
+        return ""
+    if _ONLY_A_TAG.fullmatch(asked):
         return ""
     reader = TermReader(numbers)
     low, high = (reader.read(f"{found[end][:2]} {found['unit']}") for end in ("low", "high"))
@@ -175,15 +175,11 @@ def _in_range(setting: str, numbers: tuple[float, ...], asked: str) -> str:
     if pairs[0] is None or pairs[1] is None:
         return ""
     inside = f"{pairs[0][1].factor} <= {pairs[0][0].expression} <= {pairs[1][1].factor}"
-    denied = re.search(r"\bnot\b", asked) is not None
-    asked = " ".join(re.sub(r"\bnot\b", "", asked).split())
-    is_kept, is_missed = (
-        _KEPT.fullmatch(asked) or _REACHED.fullmatch(asked),
-        _BROKEN.fullmatch(asked),
-    )
-    if not (is_kept or is_missed):
+    asked, denied = _undenied(asked)
+    is_missed = _BROKEN.fullmatch(asked) is not None
+    if not (is_missed or _KEPT.fullmatch(asked) or _REACHED.fullmatch(asked)):
         return ""
-    return f"not ({inside})" if bool(is_missed) != denied else inside
+    return f"not ({inside})" if is_missed != denied else inside
 
 
 def _truth(setting: str, numbers: tuple[float, ...], asked: str) -> str:
@@ -212,8 +208,7 @@ def _truth(setting: str, numbers: tuple[float, ...], asked: str) -> str:
     told = _TOLD.fullmatch(rule)
     if told is None:
         return ""
-    denied = re.search(r"\bnot\b", asked) is not None
-    asked = " ".join(re.sub(r"\bnot\b", "", asked).split())
+    asked, denied = _undenied(asked)
     what, sign, number = told["what"], told["sign"], told["number"]
     for pattern, meant in (
         (_OVER, ">"), (_UNDER, "<"), (_KEPT, sign), (_BROKEN, _FLIPPED[sign]), (_REACHED, ">="),
@@ -221,3 +216,9 @@ def _truth(setting: str, numbers: tuple[float, ...], asked: str) -> str:
         if pattern.fullmatch(asked):
             return f"{what} {_FLIPPED[meant] if denied else meant} {number}"
     return ""
+
+
+def _undenied(words: str) -> tuple[str, bool]:
+    """Words without 'not', and whether they had it."""
+    denied = re.search(r"\bnot\b", words) is not None
+    return " ".join(re.sub(r"\bnot\b", "", words).split()), denied
