@@ -74,9 +74,16 @@ _BEARS_ON_IT = re.compile(
 )
 """What a sentence beside a question has that changes what is asked."""
 
+_HOLDS = (
+    r"(?:say|saying|said|claim|claiming|claimed|assume|assuming|assumed|think|thinking|thought|"
+    r"state|stating|stated|believe|believing|believed|suppose|supposing|tell|telling|told|"
+    r"expect|expecting|guess|guessing|conclude|concluding|report|reporting|write|writing)"
+)
 _CALLED_FALSE = re.compile(
-    r"(?:would (?:i|we|you) be (?:wrong|mistaken|incorrect) (?:to (?:say|claim|assume|think|state)|"
-    r"in (?:saying|thinking|assuming))(?: that)?|(?:is|was|would) it (?:be )?(?:(?:false|"
+    r"(?:(?:would (?:i|we|you|one) be|am i|are we) (?:wrong|mistaken|incorrect|lying|off) "
+    rf"(?:to {_HOLDS}|in {_HOLDS}|(?:when|if|where) (?:i|we|you|one) {_HOLDS})"
+    r"(?: (?!nothing\b|something\b|anything\b)(?:them|him|her|you|people|(?:the |my |our )\w+))?"
+    r"(?: that)?|(?:is|was|would) it (?:be )?(?:(?:false|"
     r"untrue|wrong|incorrect|inaccurate|mistaken)|"
     r"not (?:true|correct|right|the case|so)|an? (?:mistake|error|lie))"
     r"(?: to (?:say|write|claim|state|assume|think|note|record|put down|report))?(?: that)?) "

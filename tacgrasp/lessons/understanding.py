@@ -55,6 +55,7 @@ from tacgrasp.lessons.dialogue.query import (
 from tacgrasp.lessons.dialogue.rules.ruled import ruled_whole
 from tacgrasp.lessons.dialogue.rules.unread import is_beyond
 from tacgrasp.lessons.dialogue.sided_questions import to_named_side
+from tacgrasp.lessons.dialogue.worded_amounts import in_class_words, without_remark
 from tacgrasp.lessons.dialogue.written_units import (
     in_asked_unit,
     numbers_in_units,
@@ -153,6 +154,8 @@ def understood_by_grammar(question: str, before: str = "") -> ReadQuestion | Non
     """
     if stated := denied_statement(question):
         return _denied(understood_by_grammar(f"Is it true that {stated}", before), question)
+    if (asked := without_remark(question)) and (read := understood_by_grammar(asked, before)):
+        return _in_class_words(read)
     question = in_words(question)
     plain = plainer(question)
     is_denied = is_denied_first(question) and not is_denied_first(plain)
@@ -240,6 +243,9 @@ def _doubted(question: str, read: ReadQuestion | None) -> ReadQuestion | None:
 
 def read_by_model(writer: QueryWriter, question: str, before: str = "") -> ReadQuestion | None:
     """What model and classifier read, with the query's probability among those that they name."""
+    if asked_alone := without_remark(question):
+        read = read_by_model(writer, asked_alone, before)
+        return read and _in_class_words(read)
     question = respelled(question)
     if is_beyond(question):
         return None
@@ -284,6 +290,13 @@ def read_by_model(writer: QueryWriter, question: str, before: str = "") -> ReadQ
         by_model = partial(read_by_model, writer)
         read = divided(plain, read, understood_by_grammar, by_model) or read
     return _in_its_words(plain, _as_one(plain, read))
+
+
+def _in_class_words(read: ReadQuestion) -> ReadQuestion:
+    """What was read, answered by words for depth and area."""
+    query = in_class_words(read.query)
+    meaning = None if query == read.query else read_query(query)
+    return read if meaning is None else read._replace(query=query, meaning=meaning)
 
 
 def _as_told(query: str, words: str) -> str:

@@ -44,7 +44,13 @@ from tacgrasp.lessons.dialogue.meaning import (
     names_of,
     truth_of,
 )
-from tacgrasp.lessons.dialogue.quantities import QUANTITIES, amount_text, number_in, value_text
+from tacgrasp.lessons.dialogue.quantities import (
+    MEAN_PRESSURE,
+    QUANTITIES,
+    amount_text,
+    number_in,
+    value_text,
+)
 from tacgrasp.lessons.dialogue.scene import AskedScene, Value
 
 OFF_TOPIC = "That is not about touch."
@@ -99,6 +105,9 @@ def answer(meaning: Meaning, scene: AskedScene) -> Answer:
             return Answer(text=text, kind=AnswerKind.UNKNOWABLE, decidable=False)
         case OffTopic():
             return Answer(text=OFF_TOPIC, kind=AnswerKind.OFF_TOPIC, decidable=False)
+
+
+_COMPARED = re.compile(r"(?:not \()?(?P<left>[^<>=]+?) (?:<=|>=|<|>) [\d.]+\)?")
 
 
 def _lacking(meaning: Meaning, scene: AskedScene) -> Answer | None:
@@ -168,11 +177,26 @@ def _calculated(asked: Calculated, scene: AskedScene) -> Answer:
     shown = [FACT_OF[name] for name in names_of(asked) if name in FACT_OF]
     shown = ["force_band"] if is_of_band and kind is AnswerKind.CHOICE else shown
     clauses = [fact(name, scene)[1] for name in dict.fromkeys(shown)]
+    if compared := _compared(asked.truth, scene):
+        clauses = [compared]
     if kind is AnswerKind.CHOICE:
         text = _chosen(str(value), clauses, Expression(asked.truth).choices)
         return Answer(text=text, kind=kind, value=value)
     yes = "Yes" if value else "No"
     return Answer(text=f"{', '.join((yes, *clauses))}.", kind=kind, value=bool(value))
+
+
+def _compared(truth: str, scene: AskedScene) -> str:
+    """A pressure, or a distance from the pad's border, that is compared with a number; else ''."""
+    found = _COMPARED.fullmatch(truth)
+    if found is None:
+        return ""
+    value = Expression(found["left"]).evaluate(scene.values()).value
+    if not isinstance(value, float):
+        return ""
+    if found["left"] == MEAN_PRESSURE:
+        return f"the mean pressure is {value_text(value, 'kPa')}"
+    return f"the distance is {value_text(value, 'mm')}" if "pad_" in found["left"] else ""
 
 
 def _chosen(word: str, clauses: list[str], choices: Sequence[str]) -> str:

@@ -20,7 +20,7 @@ from typing import Any
 from cltp.tactile.states import CLASSES
 from tacgrasp.lessons.dialogue.scene import NAMES, Value
 
-MAX_LENGTH = 200
+MAX_LENGTH = 1000
 """Longest expression [characters]."""
 
 MAX_POWER = 4

@@ -80,6 +80,15 @@ _SIGNS = (
     (re.compile(r"\|\s*([xy])\s*\|", re.I), r"abs \1"),
     (re.compile(r"(?:(?<=^)|(?<=\s))[-−]\s?(?=[xy]\b)", re.I), "minus "),
     (re.compile(r"\b(limit|ceiling) ?[-−] ?(?=(?:the )?force\b)", re.I), r"\1 minus "),
+    (re.compile(r" ?(?:!=|≠) ?"), " is not "),
+    (re.compile(r"(?<![\w.]) ?\((?:F|δ|d) ?/ ?(?:A|F|δ)\)"), ""),
+    (re.compile(r"\b[Ff]_?(?:lim(?:it)?|max)\b"), "the limit"),
+    (re.compile(r"\bp_?mean\b"), "mean pressure"),
+    (re.compile(r"\bF ?/ ?(?=δ)"), "the force divided by "),
+    (re.compile(r"δ ?/ ?(?=F\b)"), "the depth divided by "),
+    (re.compile(r"(?<![\w°])(?<![\d°] )(?<!degrees )F(?![\w'’-])"), "the force"),
+    (re.compile(r"(?<![\w°])δ(?!\w)"), "the depth"),
+    (re.compile(r"(?<=abs [xy])\s*\+\s*(?=abs [xy])", re.I), " plus "),
     (re.compile(r" ?(?:>=|≥) ?"), " at least "),
     (re.compile(r" ?(?:<=|≤) ?"), " at most "),
     (re.compile(r" ?&+ ?"), " and "),
@@ -136,6 +145,30 @@ _MEANING = re.compile(
 """'Shallow, meaning under half a millimetre', which is what is meant."""
 
 _THOU = re.compile(r"\bthousandths? of an inch\b", re.I)
+_PER_SECOND = r"(?: ?(?:m ?/ ?s(?:²|\^?2)|N ?/ ?kg|met(?:re|er)s per second squared))"
+_GRAVITY = (
+    r"(?:(?:the )?(?:g|gravity) ?(?:=|:|as|at|of|is|being|taken as|set (?:to|at)|equals?(?: to)?) ?"
+    rf"9[.,]8\d*{_PER_SECOND}?|9[.,]8\d*{_PER_SECOND})"
+)
+_UNIT_NAME = r"[a-zµ²]+(?:[-/ ](?:force|of force|[a-z]{1,4}[²2]?))?"
+_CONVERSION = (
+    rf"(?:1|an?|one) {_UNIT_NAME} ?(?:=|≈|is|being|equals|makes) (?:about |roughly )?"
+    rf"\d*[.,]?\d+ {_UNIT_NAME}"
+)
+_CONSTANT = re.compile(
+    rf" ?\((?:(?:with|at|using|taking) )?(?:{_GRAVITY}|{_CONVERSION})\)|"
+    rf",? ?\b(?:with|at|using|use|taking|take|for|assuming|given|and) {_GRAVITY}(?:[,;:]|\b)|"
+    rf"(?:(?<=[.?!] )|^){_CONVERSION}[,;.] ?",
+    re.I,
+)
+"""'(g = 9.81 m/s²)', 'One psi being 6.895 kPa,': what a question says of units is known."""
+
+_SQUARED = re.compile(
+    r"\b(?:(?P<mm>mm|millimet(?:re|er)s?)|cm|centimet(?:re|er)s?)"
+    r"(?:(?P<two> ?squared| ?\^ ?2|2)|3| ?cubed| ?\^ ?3)(?!\w)|"
+    r"\bcubic (?:(?P<cubic>mm|millimet(?:re|er)s?)|cm|centimet(?:re|er)s?)\b",
+    re.I,
+)
 _NUMERO = re.compile(r"\b(serial|phone|part|item|order|batch|lot|model) no\.", re.I)
 """'Serial no. of the part'."""
 
@@ -204,7 +237,14 @@ def is_denied_first(question: str) -> bool:
 
 def plainer(question: str) -> str:
     """A question without address, thanks and tag, and without the denial that expects 'yes'."""
-    text = _THOU.sub("thou", " ".join(question.split()))
+    text = _THOU.sub("thou", " ".join(_CONSTANT.sub(" ", question).split()))
+    text = re.sub(r" (?=[,;:.?!])", "", text) if text != question else text
+    text = _SQUARED.sub(
+        lambda each: (
+            f"{'mm' if each['mm'] or each['cubic'] else 'cm'}{'²' if each['two'] else '³'}"
+        ),
+        text,
+    )
     text = _MEANING.sub("", text)
     text = _NUMERO.sub(r"\1 number", metric(text))
     if opening := _ADDRESS.match(text):

@@ -18,14 +18,18 @@ GRAVITY_N_PER_G = 9.80665e-3
 """Weight of a gram [N/g]."""
 
 
+MEAN_PRESSURE = "force_n / area_mm2"
+"""Mean pressure of the contact, as an expression [N/mm²]."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Unit:
     """A unit.
 
     Attributes:
         symbol: As queries write it.
-        dimension: What it measures: length, force, fraction, area, mass or pressure.
-        size: Its size in mm, N, percent, mm², g or N/mm².
+        dimension: What it measures: length, force, fraction, area, volume, mass or pressure.
+        size: Its size in mm, N, percent, mm², mm³, g or N/mm².
         written: As answers write it; '' for the symbol.
     """
 
@@ -62,6 +66,10 @@ UNITS: Mapping[str, Unit] = {
         Unit(symbol="mg", dimension="mass", size=1e-3),
         Unit(symbol="lb", dimension="mass", size=453.59237),
         Unit(symbol="oz", dimension="mass", size=28.349523),
+        Unit(symbol="mm³", dimension="volume", size=1.0),
+        Unit(symbol="µL", dimension="volume", size=1.0),
+        Unit(symbol="cm³", dimension="volume", size=1000.0),
+        Unit(symbol="mL", dimension="volume", size=1000.0),
         Unit(symbol="dmm", dimension="length", size=0.1, written="tenths of a mm"),
         Unit(symbol="cmm", dimension="length", size=0.01, written="hundredths of a mm"),
         Unit(symbol="dN", dimension="force", size=0.1, written="tenths of a newton"),
@@ -74,6 +82,9 @@ UNITS: Mapping[str, Unit] = {
         Unit(symbol="mbar", dimension="pressure", size=1e-4),
         Unit(symbol="bar", dimension="pressure", size=0.1),
         Unit(symbol="psi", dimension="pressure", size=6.8947573e-3),
+        Unit(symbol="mmHg", dimension="pressure", size=1.33322387e-4),
+        Unit(symbol="atm", dimension="pressure", size=0.101325),
+        Unit(symbol="daN", dimension="force", size=10.0),
     )
 }
 """Units by symbol. Grams also stand for the force that they weigh."""

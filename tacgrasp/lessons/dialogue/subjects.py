@@ -28,6 +28,7 @@ SUBJECTS: Mapping[str, str] = {
     "print": "what is printed on it",
     "past": "what happened to it before",
     "law": "what the rules say about it",
+    "friction": "its friction",
     "trait": "that",
 }
 """What touch can't know, as answers name it."""

@@ -391,3 +391,92 @@ def test_a_rule_reads_what_the_grammar_does_not_compose(question, text):
 @pytest.mark.parametrize("question", ["Is it neither zorby nor deep?", "x in pixels"])
 def test_what_no_query_has_is_not_put_to_the_model(question):
     assert understood(Refusing(), question) is None
+
+
+_NEAREST = "min(pad_width_mm / 2 - abs(x_mm), pad_height_mm / 2 - abs(y_mm))"
+_READ = {
+    "How far is the contact from the nearest border, in mm?": f"calculate {_NEAREST} in mm.",
+    "Does the touch keep at least 3 mm from every edge?": f"calculate {_NEAREST} >= 3.",
+    "What is the distance to the upper right corner of the pad?": (
+        "calculate hypot(pad_width_mm / 2 - x_mm, pad_height_mm / 2 - y_mm) in mm."
+    ),
+    "With the origin in the bottom left corner, what is y of the contact, in mm?": (
+        "calculate pad_height_mm / 2 + y_mm in mm."
+    ),
+    "Which of the four edges is the contact nearest to?": (
+        "calculate ('left' if x_mm < 0 else 'right') if pad_width_mm / 2 - abs(x_mm) < "
+        "pad_height_mm / 2 - abs(y_mm) else ('top' if y_mm > 0 else 'bottom')."
+    ),
+    "Of a pad of 300 mm², how many square millimetres are not touched?": (
+        "calculate 300 - area_mm2 in mm²."
+    ),
+    "What volume in mm³ is the contact area times the depth?": (
+        "calculate area_mm2 * depth_mm in mm³."
+    ),
+    "What is the compliance in µm per newton?": "calculate depth_mm / force_n in µm/N.",
+    "How many newtons are there for each millimetre of depth?": (
+        "calculate force_n / depth_mm in N/mm."
+    ),
+    "What is the mean contact pressure in mmHg?": "calculate force_n / area_mm2 in mmHg.",
+    "Is the mean pressure (1 bar = 100 kPa) above 0.2 bar?": (
+        "calculate force_n / area_mm2 > 0.02."
+    ),
+    "Does the grip beat the weight of what we lift?": "calculate force_n > 0.00980665 * mass_g.",
+    "How many times the weight of the load is the force (g = 9.81 m/s²)?": (
+        "calculate force_n / (0.00980665 * mass_g) in 1."
+    ),
+    "Signed deviation from the middle of the band, N?": (
+        "calculate force_n - (band_low_n + band_high_n) / 2 in N."
+    ),
+    "From here to the top of the band it is how many newtons? (negative = past it)": (
+        "calculate band_high_n - force_n in N."
+    ),
+    "Before the force that must never be passed, is there at least 0.5 N to spare?": (
+        "calculate limit_n - force_n >= 0.5."
+    ),
+    "Is the force closer to the band's ceiling than to its floor?": (
+        "calculate abs(force_n - band_high_n) < abs(force_n - band_low_n)."
+    ),
+    "Set-point 3 N, tolerance ±0.4 N: out of tolerance?": (
+        "calculate not (abs(force_n - 3) <= 0.4)."
+    ),
+    "The drawing asks for 0.5 mm of indentation with 20 % either way. Are we in spec?": (
+        "calculate abs(depth_mm - 0.5) <= 0.2 * 0.5."
+    ),
+    "Pass or fail: the force is at least 2 N.": "calculate 'pass' if force_n >= 2 else 'fail'.",
+    "Heads for a depth over 0.5 mm, tails for anything else. Heads or tails?": (
+        "calculate 'heads' if depth_mm > 0.5 else 'tails'."
+    ),
+    "Is it smooth or textured?": "calculate 'smooth' if texture == 'smooth' else 'textured'.",
+    "My boss claims it is a sphere. Is he wrong?": "calculate not (shape == 'sphere').",
+    "Am I wrong to think that the surface is not bumpy?": "check texture bumpy.",
+    "Would I be lying if I said that nothing touches the pad?": "check not empty.",
+    "Skip the figures: how deep is it?": "choice depth.",
+    "In words rather than numbers, how big is the contact area?": "choice area.",
+    "Is texture != smooth?": "check not texture smooth.",
+    "What is |x| + |y|?": "calculate abs(x_mm) + abs(y_mm) in mm.",
+    "Kilos of force, please": "calculate force_n / 0.00980665 in kg.",
+    "What is the friction coefficient between the gel and it?": "unknown friction.",
+    "How far does it stick out past the edge of the pad?": "unknown size.",
+}
+
+
+@pytest.mark.parametrize(("question", "query"), _READ.items())
+def test_a_question_is_read_as_it_is_meant(question, query):
+    read = understood(Refusing(), question)
+    assert read is not None
+    assert read.query == query
+
+
+@pytest.mark.parametrize(
+    ("question", "text"),
+    [
+        ("Is the mean pressure above 40 kPa?", "No, the mean pressure is 22.4 kPa."),
+        ("Is it more than 3 mm from every edge?", "Yes, the distance is 6.41 mm."),
+        ("True or false: it is a sphere.", "False: it is an ellipsoid."),
+    ],
+)
+def test_what_is_compared_is_told(question, text):
+    read = understood(Refusing(), question)
+    assert read is not None
+    assert answered(read, HELD).answer.text == text

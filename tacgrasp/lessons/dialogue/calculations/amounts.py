@@ -9,7 +9,8 @@ Not here: suppositions (``tacgrasp.lessons.dialogue.calculations.suppositions``)
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from dataclasses import replace
 
 from tacgrasp.lessons.dialogue.calculations.asked import AskedWords, usual, usual_unit
 from tacgrasp.lessons.dialogue.calculations.borders import to_border
@@ -20,8 +21,9 @@ from tacgrasp.lessons.dialogue.calculations.differences import (
     missing,
     taken,
 )
-from tacgrasp.lessons.dialogue.calculations.footprints import circle, pressure
+from tacgrasp.lessons.dialogue.calculations.footprints import circle, free_area, pressure, volume
 from tacgrasp.lessons.dialogue.calculations.loads import load, needed, safety_factor
+from tacgrasp.lessons.dialogue.calculations.quantity_names import UNIT, unit_of
 from tacgrasp.lessons.dialogue.calculations.scales import on_scale
 from tacgrasp.lessons.dialogue.calculations.shares import (
     ratio,
@@ -65,12 +67,19 @@ _ALONE = re.compile(
 )
 
 
+_OF_FORCE = re.compile(rf"(?P<unit>{UNIT}) of (?:force|grip|squeeze|push|pull)")
+_OWN_UNITS: Mapping[str, str] = {"area": "mm²", "volume": "mm³"}
+"""Units in which answers give what only a calculation has."""
+
+
 def calculated_amount(asked: AskedWords) -> Calculated | None:
     """The number that a question asks to calculate; None where it asks for none."""
+    if alone := _OF_FORCE.fullmatch(asked.words):  # 'kilos of force, please'
+        asked = replace(asked, words="force", unit=unit_of(alone["unit"]))
     readers: tuple[Callable[[AskedWords], Term | None], ...] = (
-        to_border, pressure, stiffness, circle, on_scale, safety_factor, needed, load, unused,
-        share, ratio, missing, apart, taken, from_point, whole_share, into_band, _counted, _weight,
-        _stood_at, _alone,
+        to_border, pressure, stiffness, circle, free_area, volume, on_scale, safety_factor, needed,
+        load, unused, share, ratio, missing, apart, taken, from_point, whole_share, into_band,
+        _counted, _weight, _stood_at, _alone,
     )  # fmt: skip
     for reader in readers:
         if (term := reader(asked)) and (amount := amount_of(term, asked)):
@@ -87,7 +96,7 @@ def amount_of(term: Term, asked: AskedWords) -> Calculated | None:
         expression = f"abs({expression})"
     if asked.has_floor:
         expression = f"max(0, {expression})"
-    unit = asked.unit or usual_unit(term.dimension)
+    unit = asked.unit or usual_unit(term.dimension) or _OWN_UNITS.get(term.dimension, "")
     if term.dimension == PLAIN:
         if "/" in asked.unit:
             return None
@@ -102,6 +111,8 @@ def amount_of(term: Term, asked: AskedWords) -> Calculated | None:
         return None
     if UNITS[unit].dimension == "force" and term.dimension == "mass":
         return Calculated(truth=in_newtons(term).expression, unit=unit)
+    if UNITS[unit].dimension == "mass" and term.dimension == "force":
+        return Calculated(truth=f"{term.factor} / {GRAVITY_N_PER_G:g}", unit=unit)
     if UNITS[unit].dimension == "area" and "area_percent" in expression and not term.is_sum:
         return Calculated(truth=in_mm2(term).expression, unit=unit)
     if UNITS[unit].dimension != term.dimension:

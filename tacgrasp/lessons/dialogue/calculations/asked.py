@@ -13,6 +13,7 @@ from tacgrasp.lessons.dialogue.calculations.quantity_names import UNIT, is_band,
 from tacgrasp.lessons.dialogue.calculations.terms import Term, TermReader, alike
 from tacgrasp.lessons.dialogue.conditions import number_text
 from tacgrasp.lessons.dialogue.plainer import plainer
+from tacgrasp.lessons.dialogue.quantities import MEAN_PRESSURE
 from tacgrasp.lessons.dialogue.query import asked_text
 
 _USUAL: Mapping[str, tuple[str, str]] = {
@@ -20,7 +21,7 @@ _USUAL: Mapping[str, tuple[str, str]] = {
     "length": ("depth_mm", "mm"),
     "mass": ("mass_g", "g"),
     "fraction": ("area_percent", "%"),
-    "pressure": ("force_n / area_mm2", "kPa"),
+    "pressure": (MEAN_PRESSURE, "kPa"),
 }
 """What a pronoun stands for beside a dimension ('how far below 2 N are we'), and its unit."""
 
@@ -45,7 +46,7 @@ _LEADING = re.compile(
     r"hmm+|um+|uh+|for (?:my|the|our|your) (?:log|notes?|record|report|minutes|sheet|table|file|"
     r"book|boss|form|spec|calc|sums?)|just|roughly|"
     r"approximately|exactly|(?:i |we )?(?:want|need|would like)(?: to know)?(?! to\b)|let me know|"
-    r"i ask|i wonder|tell us|give us|how about|what about|any idea|"
+    r"as a force|i ask|i wonder|tell us|give us|how about|what about|any idea|"
     r"(?:can|could|would|will) you (?:tell me|say|work out|calculate|give me|figure out)) )+"
 )
 _MORE = r"(?:more|further|extra|additional)"
@@ -76,12 +77,13 @@ _FIRST_UNIT = re.compile(
     r"(?: of (?:force|grip|squeeze|travel|indentation|depth|gel travel|load))? "
     r"(?=(?:left|short|needed|required|missing|lacking|to|remaining|over|above|below|under|"
     r"until|till|before|from|between|in (?:hand|reserve)|up to|still|available|i|we|you|"
-    r"spare|away|shy|past|beyond|surely|safely|certainly|held|guaranteed)\b)"
+    r"mean|average|nominal|contact|center|spare|away|shy|past|beyond|surely|safely|certainly|held|"
+    r"guaranteed)\b)"
 )
 """A unit that begins a question without 'how many': 'mm of travel left'."""
 
 _PRESSURE_UNIT = re.compile(
-    r"(?<!\d )\b(?:psi|(?:hecto|kilo|mega)?pascals?|[hkm]pa|millibars?|mbar)\b"
+    r"(?<!\d )\b(?:psi|(?:hecto|kilo|mega)?pascals?|[hkm]pa|millibars?|mbar|mmhg|atmospheres?)\b"
 )
 _MANY = re.compile(
     rf"\b(?:how many(?: (?:{_MORE}|whole))?|what|which|how much) "
@@ -103,7 +105,8 @@ _ANSWERED = re.compile(
     r"[a-z]+(?: [a-z]+)?(?: or [a-z]+(?: [a-z]+)?)+$"
 )
 _TAKING_G = re.compile(
-    r" (?:use|take|taking|with|using) (?:g )?(?:as |of )?#\d+(?: (?:m|"
+    r" (?:use|take|taking|with|using|at|for) (?:(?:g|gravity) )?(?:as |of |at |is |"
+    r"being )?#\d+(?: (?:m|"
     r"n) (?:per )?\S+(?: #\d+)?)?(?: (?:for|"
     r"as) g)?$"
 )
@@ -118,7 +121,11 @@ _PER_UNIT = re.compile(
 _EXTRA_ONE = re.compile(rf"\bone extra (?={UNIT}\b)|\banother (?=half (?:an? )?(?:{UNIT})\b)")
 _FULL_ONE = re.compile(rf"\b(?:one|an?) (?:full|whole|single) (?={UNIT}\b)")
 _PER_SLASH = re.compile(rf"\b({UNIT}) ?/ ?({UNIT})\b")
-_SLASH = re.compile(r"(?<=[a-z]) ?/ ?(?=(?:the )?(?:force|limit|depth|area|mass|weight|x|y)\b)")
+_SLASH = re.compile(
+    r"(?<=[a-z]) ?/ ?(?=(?:the )?(?:(?:actual|measured|felt|current) )?(?:force|limit|depth|area|"
+    r"mass|"
+    r"weight|actual|x|y)\b)"
+)
 _HOLD_ALL = re.compile(
     r"(?:do|does|are|is) (?:(?:both|all)(?: of (?:them|these))?|the following)(?: conditions)? "
     r"(?:hold|holds|true|met|satisfied|the case|so)[:,]? "
@@ -160,8 +167,10 @@ _OR_ZERO = re.compile(
     r" (?:never|not) (?:below|under|less than) (?P<f>#\d+)$"
 )
 _SIGNED = re.compile(
-    r" (?:(?:use|give|say|put|with|write) )?(?:an? |it )?(?:minus|negative|plus)(?: sign)? "
-    r"(?:if|for|when|meaning|means) .+$| an? (?:minus|negative) "
+    r"(?:^| )(?:(?:use|give|say|put|with|write) )?(?:an? |it )?(?:minus|negative|plus|positive)"
+    r"(?: (?:sign|figure|value|number|one))? (?:if|for|when|meaning|means|already|too) "
+    r"(?:(?! (?:and|but) (?:is|are|does|do|will|would) ).)+$|^signed | with "
+    r"(?:the )?sign$| an? (?:minus|negative) "
     r"(?:figure|value|number|sign)(?: would| will)? means? .+$| with (?:a |the )?sign$"
 )
 _UNSIGNED = re.compile(
@@ -169,8 +178,9 @@ _UNSIGNED = re.compile(
     r"^(?:ignoring|without|regardless of|disregarding|leaving out|dropping) "
     r"(?:the |its )?(?:sign|direction) | (?:ignoring|without|regardless of|disregarding|no matter) "
     r"(?:the |its )?(?:sign|direction|which(?: is \w+)?|whether .+)$|"
-    r" (?:and )?without (?:a|the|any) sign$| never mind which(?: way)?$| either way$|"
-    r" on either side$"
+    r" (?:and )?(?:(?:both|each) )?without (?:a |the |any |their )?signs?$|"
+    r" never mind which(?: way)?$| either way$|"
+    r" on either side$| (?:whichever|either) (?:way|direction)\b"
 )
 
 

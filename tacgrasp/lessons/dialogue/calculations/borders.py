@@ -1,7 +1,10 @@
-"""Questions for how far the contact's middle is from a border of the pad, and for the pad's size.
+"""Questions for how far the contact's middle is from a border or a corner, and for the pad's size.
 
     How far is it from the left edge?                   pad_width_mm / 2 + x_mm
     Do less than 3 mm remain to the right-hand border?  pad_width_mm / 2 - x_mm < 3
+    How far is it to the nearest border?                min(pad_width_mm / 2 - abs(x_mm), ...)
+    With the origin in the lower left corner, what is x?
+    Which border is nearest?                            'left' if ... else 'right' ...
     How wide is the pad?                                pad_width_mm
 
 Not here: whether a border cuts or is near (``tacgrasp.lessons.dialogue.rules.edges``).
@@ -18,13 +21,18 @@ from tacgrasp.lessons.dialogue.calculations.quantity_names import UNIT
 from tacgrasp.lessons.dialogue.calculations.terms import Term
 from tacgrasp.lessons.dialogue.meaning import Calculated
 
+_X, _Y = "pad_width_mm / 2", "pad_height_mm / 2"
 _SIDES: Mapping[str, tuple[str, str]] = {
-    "left": (r"left(?:most)?", "pad_width_mm / 2 + x_mm"),
-    "right": (r"right(?:most)?", "pad_width_mm / 2 - x_mm"),
-    "top": (r"top(?:most)?|upper|palm|palmar|proximal", "pad_height_mm / 2 - y_mm"),
-    "bottom": (r"bottom|lower|fingertip|distal", "pad_height_mm / 2 + y_mm"),
+    "left": (r"left(?:most)?", f"{_X} + x_mm"),
+    "right": (r"right(?:most)?", f"{_X} - x_mm"),
+    "top": (r"top(?:most)?|upper|palm|palmar|proximal", f"{_Y} - y_mm"),
+    "bottom": (r"bottom|lower|fingertip|distal", f"{_Y} + y_mm"),
 }
+_NEAREST = f"min({_X} - abs(x_mm), {_Y} - abs(y_mm))"
+_NEAREST_CORNER = f"hypot({_X} - abs(x_mm), {_Y} - abs(y_mm))"
 _PAD = r"(?:pad|sensor|gel|sensing area|sensing surface|skin)"
+_OF_PAD = rf"(?: (?:of|on|in) (?:(?:the|our|its|this|your) )?{_PAD})?"
+_RIM = r"(?:edges?|borders?|rims?|boundary|boundaries|margins?|ends?|sides?)"
 _BORDER = re.compile(
     rf"\b(?:from|to|and|of|between|before|is|until|till|off|over|past|reach(?:es|ed|ing)?|hits?|"
     rf"across) "
@@ -33,32 +41,81 @@ _BORDER = re.compile(
     + rf")(?: hand)?(?: side)?(?: {_PAD})?(?: side)? (?:edge|border|rim|boundary|margin|end)"
     rf"(?: of (?:(?:the|our|its|this|your) )?{_PAD})?\b"
 )
+_HIGH, _WIDE = r"(?:(?P<top>top|upper)|bottom|lower)", r"(?:(?P<left>left)|right)"
+_CORNER = re.compile(
+    rf"\b(?:(?:the|our|its|this|your) )?(?:{_PAD} )?(?:{_PAD}'s )?{_HIGH}(?: hand)? {_WIDE}"
+    rf"(?: hand)? corner{_OF_PAD}"
+)
+_OWN = rf"(?:(?:the|our|its|this|your) )?(?:#\d+ )?(?:{_PAD} |{_PAD}'s )?"
+_NEAR = r"(?:nearest|closest|next)"
+_ANY_BORDER = re.compile(
+    rf"\b(?:(?:{_OWN}{_NEAR}(?: of (?:the )?(?:four|#\d+))?|(?:any|every|each|all|"
+    rf"whichever|whatever|either)(?: one)?(?: of {_OWN}|(?= ))(?: (?:the )?(?:four|#\d+))?) ?"
+    rf"(?:{_PAD} |{_PAD}'s )?(?P<what>corner|{_RIM}){_OF_PAD}"
+    rf"(?: is (?:the )?(?:nearest|closest|nearer|closer)(?: to (?:it|that|the contact))?)?|"
+    rf"{_OWN}(?P<one>corner|border|edge|rim)(?: that| which)? is (?:the )?{_NEAR}(?: to it)?)\b"
+)
 _LONG = rf"#\d+ (?:{UNIT})"
+_BY = r"(?:by|x|times)"
 _PAD_SIZE = re.compile(
     rf"^(?:(?:the|our|this|your|my) )?{_PAD} (?:is|measures|being|has) {_LONG}(?: (?:wide|broad|"
     rf"high|tall|across|long|by|and|x|width|of width|height|of height|{_LONG}))* (?=[a-z])|"
     rf" (?:(?:given|with|for|at|assuming) )?(?:an? |the )?(?:(?:pad|sensor|gel) )?(?:of )?"
     rf"(?:half )?(?:the |its )?(?:pad )?(?:width|height)(?: (?:is|of|being|equals))? {_LONG}"
-    r"(?: high| wide| across)?$"
+    rf"(?: high| wide| across)?$| of (?:the |a |our )?#\d+(?: mm)?(?: {_BY})? #\d+ (?:mm )?{_PAD}\b"
 )
-_HOW = re.compile(r"\b(?:how (?:far|close|near|much)|what|distance|gap|clearance|space|room)\b")
+_HOW = re.compile(
+    r"\b(?:how (?:far|close|near|much)|what|which|distance|gap|clearance|space|room|line)\b"
+)
 _OF_DISTANCE = (
     r"(?:how|far|close|near|much|what|which|distance|gap|clearance|space|room|stretch|length|way|"
     r"the|a|an|is|are|does|do|lie|lies|lying|sit|sits|sitting|press|presses|pressed|pressing|"
-    r"stand|stands|be|will|would|have|has|remain|remains|remaining|left|there|it|its|this|that|of|"
-    r"from|to|and|between|away|in|inward|inwards|off|on|at|up|with|contact|touch|point|spot|place|"
-    r"object|thing|item|berry|imprint|print|patch|center|middle|centroid|pad|gel|sensor|"
+    r"stand|stands|be|will|would|have|has|had|got|remain|remains|remaining|left|there|it|its|this|"
+    r"that|of|from|to|and|between|away|in|inward|inwards|off|on|at|up|with|contact|touch|point|"
+    r"spot|place|object|thing|item|berry|imprint|print|patch|center|middle|centroid|pad|gel|"
+    r"sensor|"
     r"now|currently|presently|measured|counted|separates?|separating|travel|travels|go|move|moved|"
-    r"before|until|then|rather|than|still|we|i|you|touching|felt|where|straight|slide|slides|"
+    r"before|until|then|rather|than|still|we|i|you|touching|touched|felt|where|straight|slide|"
+    r"slides|"
     r"dividing|divides?|into|reckoned|taken|upward|upwards|downward|"
     r"downwards|leftward|rightward|"
     r"leftwards|rightwards|sideways|horizontally|vertically|measuring|"
-    r"counting|height|high|find|found|located|down)"
+    r"counting|height|high|find|found|located|down|"
+    r"measure|me|line|crow|flies|as|shortest|smallest|minimum|least|clear|keep|keeps|under|below|"
+    r"over|above|for|feel|need|so|free|surface|air|bird|flight|keeping|get|gets|i'll|"
+    r"(?:contact|touch|object|thing|patch|item)'s|level|after|am|going|correction|effect)"
 )
 _AGAINST = re.compile(rf"\b(?:{AGAINST}) (?P<by>{_LONG})\b")
-_VERB = re.compile(r"(?:is|are|does|do|has|have|will|would) ")
+_VERB = re.compile(
+    rf"(?:is|are|does|do|has|have|will|would) |(?=(?:{AGAINST.replace('?P<', '?P<_')}) )"
+)
 _PAD_IS = re.compile(
     rf"how (?:(?P<wide>wide|broad)|high|tall) is (?:(?:the|your|this|our) )?{_PAD}"
+)
+_ORIGIN = re.compile(
+    r"\b(?:origin|zero point|coordinates?|coordinate system|image convention|counting from|"
+    r"counted from|measured from)\b"
+)
+_NEW_AXIS = re.compile(
+    r"\b(?:what|which|new|the|s|is)(?: is| are)?(?: the)?(?: new)? (?P<axis>[xy])\b(?! (?:still|"
+    r"runs?|points?|pointing|to the|goes|going|grows?))|^(?P<first>[xy]) (?:of|in)\b|"
+    r"\b(?P<last>[xy]) of (?:the )?contact\b"
+)
+_BESIDE = re.compile(
+    rf"\bhow much(?: of)?(?: (?:the|our|your))? {_PAD}(?: surface)?(?: (?:lies?|is|are|there is|"
+    r"remains?|do (?:we|i) have|have we))*(?: still)? (?:to |on )?(?:the )?(?:(?P<left>left)|"
+    r"(?P<right>right)|(?P<top>above)|(?P<bottom>below|beneath|under))(?: side)?(?: of)? "
+    r"(?P<rest>.+)"
+)
+_WHICH = re.compile(
+    rf"\b(?:which|what|name|pick|choose|the|of)\b.*?\b(?:{_RIM})\b.*"
+    r"\b(?:nearest|closest|nearer|closer)\b|"
+    rf"\b(?:nearest|closest)(?: of the (?:four|#\d+))? {_RIM}\b"
+)
+_FOUR = r"left|right|top|bottom|upper|lower|one|or|hand"
+_OF_WHICH = (
+    rf"(?:{_OF_DISTANCE}|{_RIM}|nearest|closest|nearer|closer|name|pick|choose|tell|say|{_FOUR}|"
+    r"four|#\d+|comes?|lean|leans|towards?|most)"
 )
 
 
@@ -68,31 +125,98 @@ def to_border(asked: AskedWords) -> Term | None:
         size = "pad_width_mm" if found["wide"] else "pad_height_mm"
         return Term(expression=size, dimension="length", words="")
     words = _PAD_SIZE.sub("", asked.words)
-    found = _BORDER.search(words)
-    if found is None or "#" in words or not _HOW.search(words):
+    if expression := _from_corner(words):
+        return _length(expression)
+    if (beside := _BESIDE.search(words)) and is_made_of(beside["rest"], _OF_DISTANCE):
+        return _length(_side_of(beside))
+    expression, rest = _distance(words)
+    if not expression or re.search(r"#(?!\d+ (?:border|edge|side)s?\b)", rest):
         return None
-    rest = f"{words[: found.start()]} {words[found.end() :]}"
-    return _distance(found) if is_made_of(rest, _OF_DISTANCE) else None
+    is_asked = _HOW.search(words) or asked.unit
+    return _length(expression) if is_asked and is_made_of(rest, _OF_DISTANCE) else None
 
 
 def border_check(asked: AskedWords) -> Calculated | None:
     """Whether that distance is more or less than so much."""
     words = _PAD_SIZE.sub("", asked.words)
     against = _AGAINST.search(words)
-    if against is None or words.count("#") > 1 or not (begin := _VERB.match(words)):
+    if against is None or not (begin := _VERB.match(words)):
         return None
     by = asked.term(against["by"])
-    words = f"{words[begin.end() : against.start()]} {words[against.end() :]}"
-    found = _BORDER.search(words)
-    if found is None or by is None or by.dimension != "length":
+    expression, rest = _distance(f"{words[begin.end() : against.start()]} {words[against.end() :]}")
+    if not expression or by is None or by.dimension != "length":
         return None
-    if not is_made_of(f"{words[: found.start()]} {words[found.end() :]}", _OF_DISTANCE):
+    if not is_made_of(rest, _OF_DISTANCE):
         return None
+    return Calculated(truth=f"{expression} {sign_of(against)} {by.factor}", unit=None)
+
+
+def nearest_border(asked: AskedWords) -> Calculated | None:
+    """Which of the four borders is nearest, in the question's own words."""
+    words = asked.words
+    if asked.unit or _HOW_FAR.search(words) or not _WHICH.search(words):
+        return None
+    if not is_made_of(words, _OF_WHICH) or re.search(r"\bcorner", words):
+        return None
+    named = {side for side, (said, _) in _SIDES.items() if re.search(rf"\b(?:{said})\b", words)}
+    if named and len(named) < len(_SIDES):
+        return None
+    top = "upper" if re.search(r"\bupper\b", words) else "top"
+    bottom = "lower" if re.search(r"\blower\b", words) else "bottom"
     return Calculated(
-        truth=f"{_distance(found).expression} {sign_of(against)} {by.factor}", unit=None
+        truth=(
+            f"('left' if x_mm < 0 else 'right') if {_X} - abs(x_mm) < {_Y} - abs(y_mm) else "
+            f"('{top}' if y_mm > 0 else '{bottom}')"
+        ),
+        unit=None,
     )
 
 
-def _distance(found: re.Match[str]) -> Term:
-    expression = next(value for side, (_, value) in _SIDES.items() if found[side])
+_HOW_FAR = re.compile(r"\bhow (?:far|close|near|much)\b|\b(?:distance|clearance|gap)\b")
+
+
+def _length(expression: str) -> Term:
     return Term(expression=expression, dimension="length", words="", is_sum=True)
+
+
+def _distance(words: str) -> tuple[str, str]:
+    """The distance from the border or corner that words name, and the other words; '' if none."""
+    if found := _CORNER.search(words):
+        x, y = (_SIDES[side][1] for side in _corner_sides(found))
+        expression = f"hypot({x}, {y})"
+    elif found := _ANY_BORDER.search(words):
+        is_corner = (found["what"] or found["one"]) == "corner"
+        expression = _NEAREST_CORNER if is_corner else _NEAREST
+    elif found := _BORDER.search(words):
+        expression = _side_of(found)
+    else:
+        return "", words
+    return expression, f"{words[: found.start()]} {words[found.end() :]}"
+
+
+def _side_of(found: re.Match[str]) -> str:
+    return next(value for side, (_, value) in _SIDES.items() if found[side])
+
+
+def _corner_sides(found: re.Match[str]) -> tuple[str, str]:
+    return "left" if found["left"] else "right", "top" if found["top"] else "bottom"
+
+
+def _from_corner(words: str) -> str:
+    """A coordinate that is counted from a corner of the pad, to the right and upward; else ''.
+
+    From an upper corner y is counted downward where the question says so.
+    """
+    corner = _CORNER.search(words) or re.search(
+        rf"\b{_HIGH} {_WIDE}(?: corner)?(?= y (?:runs?|goes|points?|grows?) down)", words
+    )
+    if corner is None or not _ORIGIN.search(words) or corner["left"] is None:
+        return ""
+    rest = f"{words[: corner.start()]} | {words[corner.end() :]}"
+    axis = next(filter(None, (each for m in _NEW_AXIS.finditer(rest) for each in m.groups())), "")
+    if axis == "x":
+        return _SIDES["left"][1]
+    is_down = re.search(r"\by (?:\w+ )?(?:runs?|goes|points?|grows?|pointing) down", rest)
+    if axis != "y" or (corner["top"] is not None) != (is_down is not None):
+        return ""
+    return _SIDES["top" if is_down else "bottom"][1]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from tacgrasp.lessons.dialogue.calculations.amounts import calculated_amount
 from tacgrasp.lessons.dialogue.calculations.asked import asked_words
-from tacgrasp.lessons.dialogue.calculations.borders import border_check
+from tacgrasp.lessons.dialogue.calculations.borders import border_check, nearest_border
 from tacgrasp.lessons.dialogue.calculations.checks import calculated_check
 from tacgrasp.lessons.dialogue.calculations.choices import calculated_choice
 from tacgrasp.lessons.dialogue.calculations.footprints import pressure_check
@@ -20,8 +20,8 @@ def calculated(question: str) -> Calculated | None:
     if (meaning := supposed(asked)) or supposes(asked):
         return meaning if meaning and _is_sound(meaning.truth) else None
     for reader in (
-        needs_more, calculated_choice, calculated_amount, border_check, pressure_check,
-        calculated_check,
+        needs_more, nearest_border, calculated_choice, calculated_amount, border_check,
+        pressure_check, calculated_check,
     ):  # fmt: skip
         if (meaning := reader(asked)) and _is_sound(meaning.truth):
             return meaning

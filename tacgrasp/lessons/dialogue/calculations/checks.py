@@ -25,7 +25,8 @@ _ADVERB = (
 )
 _BE = (
     r"(?:(?:be|is|are|am|was|were|lie|lies|lying|sit|sits|sitting|land|landing|stay|stays|staying|"
-    r"stand|stands|come out|end up|ending up|come|coming|remain|remains|remaining|get|getting|go|"
+    r"stand|stands|come out|end up|ending up|comes? to|amounts? to|come|coming|remain|remains|"
+    r"remaining|get|getting|go|"
     r"going|fall|falls|falling|drop|dropping|keep|keeping|"
     rf"got|{MOVES})(?: (?:back|at|up|down|in))?|at)"
 )
@@ -61,13 +62,13 @@ _NEARER = re.compile(
 )
 _PUSHED = re.compile(
     r"(?:we|you|i|it|the gripper)(?: are| is)? (?:(?:push|press|squeez|gripp?)(?:ing|es|e|"
-    r"ed)?(?: on it)? (?:harder|more)|(?:us|spend|tak)(?:ing|es?|en)(?: up)? more) than|"
+    r"ed)?(?: on it)? (?:harder|more)|(?:us|spend|tak)(?:ing|es?|en|ed)(?: up)? more) than|"
     r"(?:we|you|i|it|the gripper)(?: are| is)? (?:us|spend|tak)(?:ing|es?|en)(?: up)? over"
 )
 _AMOUNT = r"(?:(?P<more>more than|over)|(?P<fewer>less than|under)|at least)"
 _SIDES = (
     r"(?:(?P<up>exceeds?|above|over|beyond|(?:greater|larger|higher|more|heavier|deeper) than)|"
-    r"(?:below|under|beneath|(?:less|smaller|lower|lighter) than))"
+    r"(?:below|under|beneath|shy of|short of|(?:less|smaller|lower|lighter) than))"
 )
 _BY = re.compile(
     rf"(?P<a>.+?)(?: {_ADVERB})*(?: {_BE})? {_SIDES} (?P<b>.+) by (?:{_AMOUNT} )?(?P<c>#\d+ \w+)"
@@ -92,7 +93,8 @@ _SIDE_OF = re.compile(
     r"(?:the )?(?:\w+ )?(?:middle|center(?: line)?|midline|line)"
 )
 _WITHIN = re.compile(
-    rf"(?P<a>.+?)(?: {_ADVERB})*(?: {_BE})? (?:with)?in (?P<c>#.+?) (?:of|from|around) (?P<b>.+)"
+    rf"(?P<a>.+?)(?: {_ADVERB})*(?: {_BE})? (?:with)?in (?:plus minus |plus or minus )?(?P<c>#.+?) "
+    r"(?:of|from|around) (?P<b>.+)"
 )
 _BETWEEN = re.compile(
     rf"(?P<a>.+?)(?: {_ADVERB})*(?: {_BE})? (?:somewhere )?between (?P<b>.+) and (?P<c>.+)"
@@ -149,6 +151,10 @@ _PILED = re.compile(
     r"crossing|breaking|hitting|exceed|pass|overstepping)(?: (?:past|over|above|beyond|through))? "
     r"(?:the )?(?:force )?(?:limit|cap|ceiling)"
 )
+_SPARE = re.compile(
+    rf"before (?P<b>.+?) (?:is|are) there (?:still )?{_AMOUNT} (?P<c>#\d+ \w+)"
+    r"(?: (?:left|to spare|spare|in hand|of room|to go))*"
+)
 _ROOM = re.compile(
     r"(?:there|we|i|you|it)(?: (?:still|be|is|have|has|got|any|enough|left))* "
     r"(?:room|space|headroom|slack|margin|leeway)(?: left)? for (?:another |an extra )?"
@@ -161,6 +167,11 @@ _ROOM = re.compile(
 def calculated_check(asked: AskedWords) -> Calculated | None:
     """What a question asks whether it is so; None where it asks for no such thing."""
     words, is_any = asked.words, False
+    if (found := _SPARE.fullmatch(words)) and (pair := asked.pair(found["b"], found["c"])):
+        sign = "<" if found["fewer"] else ">" if found["more"] else ">="
+        return Calculated(
+            truth=f"{pair[0].expression} - force_n {sign} {pair[1].factor}", unit=None
+        )
     if not_yet := _NOT_YET.match(words):
         rest = f"{not_yet[1]}{words[not_yet.end() :]}"
         reached = calculated_check(replace(asked, words=rest))
@@ -288,6 +299,10 @@ def _both(asked: AskedWords, subjects: str, words: str, sign: str) -> str | None
 
 def shared_noun(asked: AskedWords, first: str, second: str) -> tuple[str, str]:
     """Two noun phrases of which one lacks its noun: 'the upper end of the band, the lower one'."""
+    if asked.term(second) is None and (of := re.fullmatch(r"((?:the )?\w+'s) \w+", first)):
+        other = re.sub(r"^(?:the|its) ", "", second)
+        if asked.term(f"{of[1]} {other}"):
+            return first, f"{of[1]} {other}"
     if asked.term(second) is None and (one := re.fullmatch(r"(?:the )?(\w+)(?: one)?", second)):
         return first, re.sub(r"^(?:the )?\w+", one[1], first)
     noun = re.fullmatch(r"(?:the )?\w+ (.+)", second)

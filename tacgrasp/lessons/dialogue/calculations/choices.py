@@ -26,7 +26,8 @@ _WHICH = re.compile(
     rf"(?:which|what)(?: (?:one|figure|value|number|quantity|thing|offset|of (?:the|these) two|"
     rf"of these|is|are|from|the|(?:middle|center)))* (?:the )?(?:(?P<more>{_GREATER})|"
     rf"(?P<less>{_LESS}))(?P<zero>{_FROM_ZERO})(?: (?:one|number|figure|amount|value|"
-    r"quantity))?(?: of (?:(?:the |these |those )?(?:#\d+|two|both)|[a-z]+(?= (?:the|its|my|"
+    r"quantity|force(?! (?:limit|band))|of (?:them|the lot)))?(?: (?:here|now|right now|"
+    r"at present))?(?: of (?:(?:the |these |those )?(?:#\d+|two|both)|[a-z]+(?= (?:the|its|my|"
     r"our)\b)))? "
     r"(?P<a>.+) or (?P<b>.+)"
 )

@@ -33,7 +33,8 @@ _FURTHER = re.compile(
     r"squeeze|"
     r"of [a-z]+))* "
     r"(?:(?:i|we|you|it) )?(?:would|must|does|do|can|could|may|should|will|has|have|need) "
-    r"(?:(?!than)(?!without)[a-z]+ )+?(?:to (?:reach|get to|arrive at|hit|be at|come to|get up to|"
+    r"(?:(?!than)(?!without)[a-z]+ )+?(?:to (?:reach|get to|make(?: it)?|arrive at|hit|be at|"
+    r"come to|get up to|"
     r"come up to|touch)|(?:before|until|till) (?:it|i|we|you|(?:the|my|our) (?:\w+ )?\w+) "
     r"(?:reach(?:es)?|hits?|(?:is|are|was|were) at|gets? to|(?:comes?|gets?) up to|measures?|"
     r"touch(?:es)?|"
@@ -85,6 +86,11 @@ _APARTS = tuple(
         r"difference|step|jump|climb|way|margin|room) from (?P<a>.+?) (?:up |down )?to (?P<b>.+)",
         r"(?:(?:what|how (?:large|big|much|great|wide|far)) is )?(?:the )?(?P<apart>gap|distance|"
         r"difference|spread) between (?P<a>.+) and (?P<b>.+)",
+        r"(?:(?:what|how (?:large|big|much|great)) is )?(?:the )?(?P<apart>deviation|departure|"
+        r"error)"
+        r"(?: of (?P<a>.+?))? (?:from|to|against) (?P<b>.+)",
+        rf"(?P<b>.+?) (?:by )?how (?:much|far) (?:(?P<below>{BELOW})|(?P<above>{ABOVE})) "
+        rf"(?:it|that|this) {IS} (?P<a>.+)",
     )
 )
 _FROM_TO = re.compile(r"\bfrom .+ to\b")
@@ -110,7 +116,7 @@ _BEYOND = re.compile(
 _ADDED = tuple(
     re.compile(pattern)
     for pattern in (
-        rf"add (?P<b>.+?) (?:to|and) (?P<a>.+?)(?: together| up)?{_GET}",
+        rf"add(?: up)? (?P<b>.+?) (?:to|and) (?P<a>.+?)(?: together| up)?{_GET}",
         r"(?:(?:what is|give me|the) )*sum of (?P<b>.+) and (?P<a>.+)",
         r"(?:what|how much) (?:do|would) (?:you|we|i) (?:get|have) (?:if|when) (?:you|we|i) "
         r"add (?P<b>.+) (?:to|and) (?P<a>.+)",
@@ -135,6 +141,11 @@ _HEADROOM = re.compile(
 )
 
 
+_FROM_HERE = re.compile(
+    r"from (?:here|us|the force|it|now|what we have) (?:up |down )?to (?P<b>.+?) (?:it is|is it|is|"
+    r"are|there is|there are) how (?:much|far)|how (?:much|far) (?:is it )?from (?:here|us|now) "
+    r"(?:up |down )?to (?P<c>.+)"
+)
 _LOWERED = re.compile(
     r"how (?:much|far) (?:must|should|would|do|does|could|will|has|have|need|needs)"
     r"(?: (?:i|we|you|it|the \w+))?(?: (?:have|need|needs|be|to|back|ease|come|go|taken|take|let|"
@@ -152,6 +163,10 @@ def missing(asked: AskedWords) -> Term | None:
         return _difference(pair[1], pair[0]) if pair else None
     if (found := _LOWERED.fullmatch(asked.words)) and (pair := asked.pair(None, found["b"])):
         return _difference(*pair)
+    if (found := _FROM_HERE.fullmatch(asked.words)) and (
+        pair := asked.pair(None, found["b"] or found["c"])
+    ):
+        return _difference(pair[1], pair[0])
     for pattern in (_MISSING, _FURTHER, _SLACK, _UNTIL):
         found = pattern.fullmatch(asked.in_its_unit(asked.words))
         named = found.groupdict().get("a") if found else None
@@ -190,6 +205,8 @@ def taken(asked: AskedWords) -> Term | None:
             if found and (pair := asked.pair(found["a"], found["b"])):
                 a, b = pair
                 expression = f"{a.expression} {sign} {b.factor}"
+                if sign == "+" and asked.is_unsigned:
+                    expression = f"abs({a.expression}) + abs({b.expression})"
                 return Term(expression=expression, dimension=a.dimension, words="", is_sum=True)
     return None
 

@@ -1,6 +1,8 @@
-"""Questions for the mean pressure of the contact, and for a circle or square of its area.
+"""Questions for the contact's mean pressure, for a circle or square of its area, what it leaves.
 
     What is the mean pressure in kPa?                       force_n / area_mm2
+    What volume is the area times the depth?                area_mm2 * depth_mm
+    How many mm² of the pad are free?                       ... - area_mm2
     As a circle of equal area, what diameter has it?        2 * sqrt(area_mm2 / 3.14159)
 
 Not here: areas and forces alone (``tacgrasp.lessons.dialogue.families``).
@@ -15,9 +17,7 @@ from tacgrasp.lessons.dialogue.calculations.phrases import AGAINST, is_made_of, 
 from tacgrasp.lessons.dialogue.calculations.quantity_names import UNIT
 from tacgrasp.lessons.dialogue.calculations.terms import Term
 from tacgrasp.lessons.dialogue.meaning import Calculated
-from tacgrasp.lessons.dialogue.quantities import UNITS
-
-_MEAN_PRESSURE = "force_n / area_mm2"
+from tacgrasp.lessons.dialogue.quantities import MEAN_PRESSURE, UNITS
 
 _ROUND = re.compile(r"\b(?:circle|circular|disc|disk|round|dot|coin)\b")
 _SQUARE = re.compile(r"\bsquare\b")
@@ -40,7 +40,8 @@ _OF_FORM = (
     r"width|breadth|radius|circumference|perimeter|side|sides|edge|length|long|what|which|how|"
     r"big|large|would|will|is|are|be|does|do|has|have|had|you|we|i|get|give|gives|its|"
     r"covering|covers|covered|having|whose|equals|matches|matching|and|then|there|come|comes|"
-    r"out|amount|us|me|tell|much|treat|treating|turn|each|every|imagined|equivalently|regard|"
+    r"out|amount|us|me|tell|much|picture|tile|neat|like|many|millimetre|treat|treating|turn|each|"
+    r"every|imagined|equivalently|regard|"
     r"regarded|seen|just|measure|measures|large)"
 )
 _PRESSURE = re.compile(
@@ -81,6 +82,48 @@ _OF_PRESSURE = (
 )
 
 
+_FREE = re.compile(
+    r"\b(?:free|untouched|uncovered|unpressed|bare|clear|empty|not (?:being )?(?:touched|covered|"
+    r"pressed|in contact))\b"
+)
+_OF_FREE = (
+    rf"(?:{_OF_PRESSURE}|free|untouched|uncovered|unpressed|bare|clear|empty|not|being|any|touch|"
+    r"stay|stays|remain|remains|left|have|has|mm2|cm²|square|millimetres|pad's|gel's|sensing|"
+    r"x|surface|still|large|big|total|many|aren't)"
+)
+
+
+def free_area(asked: AskedWords) -> Term | None:
+    """The area of the pad that nothing touches; of a pad of the size that the question gives."""
+    words, numbers = asked.words, asked.numbers
+    unit = asked.unit or next(iter(re.findall(r"\b(?:mm2|cm²)\b", words)), "")
+    if not unit and not re.search(r"\bhow many #\d+|\bsquare (?:milli|centi)", words):
+        return None
+    if unit not in ("", "mm2", "mm²", "cm²") or not _FREE.search(words) or len(numbers) > 2:
+        return None
+    if not is_made_of(re.sub(r"#\d+", "", words), _OF_FREE):
+        return None
+    whole = " * ".join(f"{number:g}" for number in numbers) or "pad_width_mm * pad_height_mm"
+    return Term(expression=f"{whole} - area_mm2", dimension="area", words="", is_sum=True)
+
+
+_DEEP = re.compile(r"\b(?:depth|deep|deepest|indentation|dent|penetration|height|everywhere)\b")
+_FILLED = re.compile(r"\b(?:volume|displaced|fill|honey|water|wax|poured)\b")
+
+
+def volume(asked: AskedWords) -> Term | None:
+    """The area of contact times the largest depth."""
+    unit = UNITS.get(asked.unit)
+    is_asked = unit is not None and unit.dimension == "volume"
+    if asked.numbers or not (is_asked or re.search(r"\bvolume\b", asked.words)):
+        return None
+    if not _DEEP.search(asked.words):
+        return None
+    if not (_AREA.search(asked.words) or _FILLED.search(asked.words)):
+        return None
+    return Term(expression="area_mm2 * depth_mm", dimension="volume", words="")
+
+
 _AGAINST_PRESSURE = re.compile(rf"\b(?:{AGAINST}) (?P<by>#\d+ (?:{UNIT}))(?= |$)")
 _BESIDE_PRESSURE = re.compile(r"\b(?:pressure|push\w*|press\w*|force|squeez\w*|load|stress)\b")
 
@@ -94,14 +137,14 @@ def pressure(asked: AskedWords) -> Term | None:
         return None
     if not is_asked and (found := _PER_SQUARE.search(words)):
         per = "N/mm²" if found["mm"] else "N/cm²"
-        return Term(expression=_MEAN_PRESSURE, dimension=per, words="")
+        return Term(expression=MEAN_PRESSURE, dimension=per, words="")
     is_made = is_made_of(words, _OF_PRESSURE)
     if is_asked:
         is_meant = is_made or _OF_CONTACT.search(words) is not None
     else:
         said = (_PRESSURE, _IS_MEAN, _AREA_OR_PRESSURE)
         is_meant = is_made and not asked.unit and all(each.search(words) for each in said)
-    return Term(expression=_MEAN_PRESSURE, dimension="pressure", words="") if is_meant else None
+    return Term(expression=MEAN_PRESSURE, dimension="pressure", words="") if is_meant else None
 
 
 def pressure_check(asked: AskedWords) -> Calculated | None:
@@ -114,7 +157,7 @@ def pressure_check(asked: AskedWords) -> Calculated | None:
     bound = asked.term(found["by"])
     if bound is None or bound.dimension != "pressure":
         return None
-    return Calculated(truth=f"{_MEAN_PRESSURE} {sign_of(found)} {bound.factor}", unit=None)
+    return Calculated(truth=f"{MEAN_PRESSURE} {sign_of(found)} {bound.factor}", unit=None)
 
 
 def circle(asked: AskedWords) -> Term | None:

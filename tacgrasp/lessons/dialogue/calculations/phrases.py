@@ -29,7 +29,8 @@ _THROUGH = r"(?:through|past|over|beyond|above)"
 EXCEEDS = (
     r"exceed(?:s|ed|ing)?|surpass(?:es|ed|ing)?|violat(?:es?|ed|ing)|break(?:s|ing)?|broken|broke|"
     r"breach(?:es|ed|ing)?|tops?|topped|topping|bust(?:s|ing)?|cross(?:es|ed|ing)?|"
-    r"overshoot(?:s|ing)?|overstep(?:s|ped|ping)?|outweigh(?:s|ed)?|trip(?:s|ped|ping)?|"
+    r"beats?|beating|overshoot(?:s|ing)?|overstep(?:s|ped|ping)?|outweigh(?:s|ed)?|trip(?:s|ped|"
+    r"ping)?|"
     r"outstrip(?:s|ped)?|"
     rf"(?:go|goes|going|gone|went|get|gets|got|getting|run|running|blow|blows|blowing|burst|bursts|"
     rf"bursting|shoot|shooting|sail|sailing|push|pushing|rise|rises|rising|climb|climbs|climbing|"
@@ -49,7 +50,8 @@ REACHES = (
 
 AGAINST = (
     r"(?P<more>(?:more|further|farther|greater|higher) than|over|beyond|above|exceed(?:s|ing)?)|"
-    r"(?P<less>(?:less|fewer|nearer|closer|smaller|lower) than|under|within|below)|"
+    r"(?P<less>(?:less|fewer|nearer|closer|smaller|lower|gentler|lighter|weaker|milder) than|under|"
+    r"within|below)|"
     r"(?P<least>at least|no less than)|(?P<most>at most|no more than)"
 )
 """Before a number that something is more or less than; ``sign_of`` tells which."""

@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 
+from tacgrasp.lessons.dialogue.quantities import MEAN_PRESSURE
 from tacgrasp.lessons.dialogue.written_units import SPELLED
 
 _THING = (
@@ -74,12 +75,13 @@ _NAMED: Mapping[str, tuple[str, str]] = {
     rf"holding |squeeze |pushing |pressing )*(?:force|squeeze|push|pressure|grip|pinch|press|clamp|"
     rf"clench|grasp)"
     rf"{_ON}|(?:grip|force|squeeze) (?:strength|level|reading)|clamping|squeezing|"
-    r"(?:force |what )?(?:that )?(?:you|we)(?: are)? (?:feel|press|apply|measur|sens|exert)(?:e|"
-    r"ing)?"
+    r"(?:force |what )?(?:that )?(?:you|we)(?: are)? (?:feel|press|apply|measur|sens|exert|squeez|"
+    r"push|clamp)(?:e|ing)?"
     r"(?: with)?(?: at present| now)?|force felt": (
         "force_n", "force",
     ),
     rf"(?:{_LIMIT})(?: {_NEVER})?": ("limit_n", "force"),
+    rf"(?:force|value|grip|figure|number|mark|line|squeeze) {_NEVER}": ("limit_n", "force"),
     _ends(_LOW): ("band_low_n", "force"),
     r"(?:agreed|wanted|required|requested|desired) (?:minimum|min)(?: force)?": (
         "band_low_n", "force",
@@ -91,7 +93,8 @@ _NAMED: Mapping[str, tuple[str, str]] = {
     rf"(?:width|span|breadth) of (?:the |our )?{_BAND_NAME}|{_BAND_NAME}(?:'s)? (?:width|span)": (
         "band_high_n - band_low_n", "force",
     ),
-    rf"(?:maximum |peak |contact |dent |gel |press |indentation |penetration |imprint |greatest |"
+    rf"(?:maximum |max |largest |peak |contact |dent |gel |press |indentation |penetration |"
+    rf"imprint |greatest |"
     rf"deepest )*(?:depth|"
     rf"indentation|dent|penetration|imprint)(?: of (?:the )?(?:contact|dent|press|"
     rf"indentation|imprint|{_THING}))?": ("depth_mm", "length"),
@@ -103,8 +106,12 @@ _NAMED: Mapping[str, tuple[str, str]] = {
     r"(?:free|untouched|uncovered) (?:part|share|portion|area|rest)(?: of (?:the )?pad)?": (
         "100 - area_percent", "fraction",
     ),
+    r"abs x": ("abs(x_mm)", "length"),
+    r"abs y": ("abs(y_mm)", "length"),
     r"x(?: (?:offset|coordinates?|value|position|component|displacement))?|(?:horizontal|sideways|"
-    r"lateral) (?:offset|position|displacement|coordinate)|contact's x": ("x_mm", "length"),
+    r"lateral|left right) (?:offset|position|displacement|coordinate)|contact's x": (
+        "x_mm", "length",
+    ),
     r"y(?: (?:offset|coordinates?|value|position|component|displacement))?|(?:vertical|lengthwise|"
     r"up down|up and down) "
     r"(?:offset|position|displacement|coordinate)|contact's y": ("y_mm", "length"),
@@ -126,8 +133,9 @@ _NAMED: Mapping[str, tuple[str, str]] = {
     r"(?:headroom|margin|room|reserve|leeway|slack)(?: left)? (?:to|below|under|before|until|"
     r"up to) "
     r"(?:the )?(?:force )?limit|headroom": ("limit_n - force_n", "force"),
-    r"(?:mean|average) (?:contact )?pressure(?: (?:on|over) (?:the )?(?:contact|patch|pad|contact "
-    r"area|contact patch))?": ("force_n / area_mm2", "pressure"),
+    r"(?:mean|average|nominal) (?:contact |normal )?(?:pressure|stress)(?: (?:on|"
+    r"over) (?:the )?(?:contact|patch|pad|contact "
+    r"area|contact patch))?": (MEAN_PRESSURE, "pressure"),
     r"(?:whole |full |entire )?(?:pad|sensing area)|(?:full|complete|total) coverage": (
         "100", "fraction",
     ),
@@ -143,14 +151,30 @@ _NAMED: Mapping[str, tuple[str, str]] = {
 NAMED = [(re.compile(pattern), *meant) for pattern, meant in _NAMED.items()]
 """Names of a quantity without its article, its expression, and the dimension of its unit."""
 
+_LIFTED = (
+    r"(?:(?:is |are )?(?:being )?(?:lifted|held|carried|gripped|grasped|hoisted)|"
+    r"(?:we|you|i|they|it|the (?:gripper|robot))(?: (?:are|is|am|have to))? (?:lift|hold|carry|"
+    r"grip|hoist|pick|grasp|mov)(?:e|s|ing)?(?: up)?|hangs? (?:in|from) (?:the |our |your )?"
+    r"(?:grip|gripper|hand|fingers))"
+)
+_BODY = (
+    rf"(?:(?:(?:the|this|that|our|its) )?(?:lifted |held |gripped |carried |grasped )?{_THING}"
+    rf"(?: (?:that |which )?{_LIFTED}| in (?:the |our |your )?(?:grip|gripper|hand|fingers))?|"
+    rf"what {_LIFTED})"
+)
 WEIGHT = re.compile(
-    rf"(?:own )?weight{_OF_THING}?|{_THING}(?:'s)?(?: own)? weight|what (?:the )?{_THING} weighs"
+    rf"(?:(?:own|plain|dead|bare) )*weight(?: of {_BODY})?(?: as a force)?|"
+    r"weight of (?:the|this|that|our|my) (?!(?:force|grip|squeeze|limit|band|depth|area|contact|"
+    r"touch|pad|gel|press|gripper|robot|hand)\b)[a-z]+(?: as a force)?|"
+    rf"(?:lifted |held |gripped )?{_THING}(?:'s)?(?: own)? weight|what {_BODY} weighs|"
+    rf"(?:lifted|held|gripped|carried) {_THING}|{_THING} (?:that |which )?{_LIFTED}"
 )
 """Names of the mass that are asked for in newtons too."""
 
 _BAND = re.compile(rf"(?:(?:the|our|this|whole of|all of|whole|entire) )*{_BAND_NAME}")
 
 _UNIT_WORDS: Mapping[str, str] = {
+    r"(?:n|newtons?) per (?:cm²|(?:square|sq) (?:cm|centimet(?:re|er)s?))": "N/cm²",
     r"(?:n|newtons?) per (?:mm2|mm²|(?:square|sq) (?:mm|millimet(?:re|er)s?))": "N/mm²",
     **SPELLED,
     r"percentage points?|points?|per cent": "%",
@@ -166,6 +190,13 @@ _UNIT_WORDS: Mapping[str, str] = {
     r"mbar|millibars?": "mbar",
     r"bar": "bar",
     r"psi": "psi",
+    r"mmhg|(?:mm|millimet(?:re|er)s?) (?:of )?(?:hg|mercury)": "mmHg",
+    r"atm|atmospheres?": "atm",
+    r"dan|decanewtons?": "daN",
+    r"mm³": "mm³",
+    r"cm³|ccm": "cm³",
+    r"ul|µl|microlit(?:re|er)s?": "µL",
+    r"ml|millilit(?:re|er)s?": "mL",
 }
 UNIT = "|".join(_UNIT_WORDS)
 """Words of the units that a calculation may be in."""

@@ -14,6 +14,7 @@ from dataclasses import replace
 
 from tacgrasp.lessons.dialogue.calculations.asked import AskedWords, usual_unit
 from tacgrasp.lessons.dialogue.calculations.phrases import ABOVE, BELOW, IS, PARTS
+from tacgrasp.lessons.dialogue.calculations.quantity_names import UNIT, unit_of
 from tacgrasp.lessons.dialogue.calculations.terms import PLAIN, Term
 from tacgrasp.lessons.dialogue.quantities import UNITS
 
@@ -51,9 +52,14 @@ _RATIOS = tuple(
         r"(?:(?:what|how much) (?:do|would) (?:you|we|i) (?:get|have) (?:if|when) (?:you|we|i) "
         r")?divide "
         r"(?P<a>.+) by (?P<b>.+)",
-        r"(?:what is )?(?P<a>.+) divided by (?P<b>.+)",
+        r"(?:what is |the )*(?:(?:safety |load )?(?:factor|ratio|quotient) (?:(?:is|equals|of|"
+        r"as) )?)?"
+        r"(?P<a>.+) divided by (?P<b>.+?)(?: (?:so |and )?(?:that |it )?(?:what |is |makes |gives |"
+        r"do |"
+        r"does |you |get |equals )*(?:what|makes|get|is|gives))?",
         r"(?:what is |the )*ratio (?:of|between) (?P<a>.+) (?:to|and) (?P<b>.+)",
-        r"(?:what is |the )*(?P<a>[a-z]+) to (?P<b>[a-z]+) ratio",
+        r"(?:what is |the )*(?P<a>[a-z]+(?: force)?) to (?P<b>[a-z]+(?: force)?) ratio"
+        r"(?: (?:for|of|with) (?:the )?(?:lifted |held )?(?:mass|object|load|part|payload))?",
         r"(?:[a-z]+ ){0,3}?(?:as |is )?(?P<a>force|depth|area) (?:over|divided by) (?P<b>(?:the )?"
         r"(?:indentation |contact )?(?:depth|area|force))",
         r"(?P<a>.+?) (?:is|are) how many times (?:as \w+ as |the size of )?(?P<b>.+)",
@@ -97,6 +103,14 @@ _STIFFNESS = re.compile(
     r"travel)"
     r"(?: (?:do|does|is|are|we|you|it|there|work|that|ratio|out|figure|from|what|sense|feel|get|"
     r"have|now|here|by|going|please|at|present))*"
+)
+_FOR_EACH = re.compile(
+    rf"\b(?:per|for (?:each|every|one|an?)|(?:with|to) (?:each|every)) (?:single )?({UNIT})\b"
+)
+_MANY = re.compile(rf"\bhow many ({UNIT})\b")
+_OF_OTHERS = re.compile(
+    r"\b(?:limit|band|mass|weight|area|square|x|y|offset|middle|center|load|holds?|lift\w*|"
+    r"surely)\b"
 )
 _OF_PARTS = re.compile(
     r"(?:out )?of (?:every|each) (?P<n>#\d+) (?:parts?|cells?|points?|squares?|bits?) of (?:the )?"
@@ -159,10 +173,25 @@ def unused(asked: AskedWords) -> Term | None:
 
 
 def stiffness(asked: AskedWords) -> Term | None:
-    """The force over the depth."""
-    if _STIFFNESS.fullmatch(asked.words) is None:
+    """The force over the depth, or the depth over the force."""
+    words, unit = asked.words, asked.unit
+    if asked.numbers:
         return None
-    return Term(expression="force_n / depth_mm", dimension="N/mm", words="")
+    if _STIFFNESS.fullmatch(words):
+        return Term(expression="force_n / depth_mm", dimension="N/mm", words="")
+    if each := _FOR_EACH.search(words):
+        one = unit or next((unit_of(found[1]) for found in _MANY.finditer(words)), "")
+        unit = f"{one}/{unit_of(each[1])}"
+    elif not unit and (named := re.search(r"\b(?:stiffness|compliance)\b", words)):
+        unit = "N/mm" if named[0] == "stiffness" else "mm/N"
+    dimensions = [UNITS[part].dimension for part in unit.split("/") if part in UNITS]
+    expression = {
+        ("force", "length"): "force_n / depth_mm",
+        ("length", "force"): "depth_mm / force_n",
+    }.get(tuple(dimensions))
+    if expression is None or _OF_OTHERS.search(words):
+        return None
+    return Term(expression=expression, dimension=unit, words="")
 
 
 def whole_share(asked: AskedWords) -> Term | None:

@@ -60,7 +60,7 @@ _EXTRA = re.compile(
     rf"(?:(?:adding|putting on|applying|another|an? extra|a further|an additional|extra) )*"
     rf"#\d+ (?:{UNIT})(?: of {_FORCE})?"
     r"(?: (?:more|extra|less|fewer|further|harder|softer|on top|added|off))*"
-    rf"(?: (?:of )?{_FORCE})?) (?P<rest>.+)"
+    rf"(?: (?:of )?(?:the )?(?:present |current )?{_FORCE})?) (?P<rest>.+)"
 )
 _DOING = re.compile(
     r"(?:would|will|does|could|might|can) (?P<all>(?:\w+ing|twice|double|half|an?|another) .+)"

@@ -141,6 +141,7 @@ _OPERATIONS: Sequence[tuple[str, re.Pattern[str]]] = tuple(
         ("plus", r"(.+) and (.+) (?:together|combined|added|taken together)"),
         ("ratio", r"(?:ratio|quotient) (?:of|between) (.+) (?:to|and) (.+)"),
         ("ratio", r"(.+) divided by (.+)"),
+        ("times", r"(.+) (?:times|multiplied by|multiplied with) (.+)"),
         ("mean", r"(?:mean|average|midpoint) (?:of|between) (.+) and (.+)"),
         ("min", r"(?:smaller|lesser|lower|least) (?:one )?of (.+) and (.+)"),
         ("max", r"(?:larger|greater|higher|bigger|most) (?:one )?of (.+) and (.+)"),
@@ -245,6 +246,8 @@ def _made(name: str, a: Term, b: Term, words: str) -> Term | None:
         return Term(expression=f"{share} * {a.factor}", dimension=a.dimension, words=words)
     if name == "ratio" and b.dimension == UNSAID:
         return Term(expression=f"{a.factor} / {b.divisor}", dimension=a.dimension, words=words)
+    if name == "times":
+        return _product(a, b, words)
     pair = alike(a, b)
     if pair is None:
         return None
@@ -268,6 +271,18 @@ def _made(name: str, a: Term, b: Term, words: str) -> Term | None:
         words=words,
         is_sum=name in ("minus", "plus", "more", "less"),
     )
+
+
+def _product(a: Term, b: Term, words: str) -> Term | None:
+    """The volume that an area and a depth make; None of other quantities."""
+    area, depth = (a, b) if b.dimension == "length" else (b, a)
+    area = in_mm2(area)
+    if (area.dimension, depth.dimension) != ("area", "length"):
+        return None
+    if not (area.has_quantity and depth.has_quantity):
+        return None
+    expression = f"{area.factor} * {depth.factor}"
+    return Term(expression=expression, dimension="volume", words=words)
 
 
 def alike(a: Term, b: Term) -> tuple[Term, Term] | None:

@@ -37,9 +37,10 @@ _ABOVE = (
 )
 _FROM = r"from|at least|no less than|upwards? of|starting (?:at|from)"
 _HEAD = (
-    r"(?:(?:for|if|when|where|is|are|being|means?|meaning|as|at|with|anything|everything|"
+    r"(?:(?:for|an?|the|if|when|where|is|are|being|means?|meaning|as|at|with|anything|everything|"
     r"all|whatever|what|it|that|they|of|values?|forces?|depths?|areas?|masses|weights?|readings?|"
-    r"parts?|things?|objects?|items?|pieces?|grips?|dents?|prints?|patches|presses|contacts?) )*?"
+    r"parts?|things?|objects?|items?|pieces?|grips?|indentations?|dents?|prints?|patches|presses|"
+    r"contacts?) )*?"
 )
 _REST = (
     r"(?:(?:anything|everything|all|whatever is|what is|any|something) )?(?:(?:beyond|above|over|"
@@ -110,6 +111,9 @@ _GRADES = re.compile(
 )
 """Words that need no quotes and no verb to stand for values."""
 
+_LISTED = re.compile(r"\b(?:(\w+) )?(\w+) or (\w+)\b")
+"""'Heads or tails?', which names the words to choose from."""
+
 _MEANS = re.compile(
     r"\b(?:is|are|as|be|means?|meaning|counts?|makes?|gives?|goes|calls?|named|say)\b"
 )
@@ -156,7 +160,8 @@ def binned(question: str, asked: AskedWords) -> str | None:
         for start in starts
     ]
     row = max(rows, key=len, default=())
-    labelled = all(_is_label(question, match) for match in row)
+    listed = {word for each in _LISTED.findall(asked.words) for word in each if word}
+    labelled = all(match["label"] in listed or _is_label(question, match) for match in row)
     return _chosen(asked, row) if len(row) > 1 and labelled else None
 
 

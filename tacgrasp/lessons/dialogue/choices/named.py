@@ -32,7 +32,7 @@ _KIND = (
 )
 _NONE = re.compile(
     rf" ?(?:or|and) (?:(?:is it |more |rather |is this |it is |just )*(?:like )?)"
-    rf"(?P<said>none(?: of (?:these|those|them|the (?:above|lot|#\d+)))?|"
+    rf"(?P<said>none(?: of (?:(?:these|those)(?: #\d+)?|them|the (?:above|lot|#\d+)))?|"
     rf"neither(?: of (?:these|those|them|both|(?:the )?#\d+))?|"
     rf"(?:something|anything) (?:else|different|other)|some(?: (?:other|different) {_KIND})|"
     rf"(?:another|other|others|a different|different)(?: {_KIND})?|"
@@ -86,7 +86,7 @@ def named_or_none(asked: AskedWords) -> str | None:
     if not _is_beside(asked, listed, out.end()):
         return None
     cases = [(word, f"{dimension} == '{means[dimension]}'") for word, means in listed]
-    return choice_of(*cases, (out["said"].split(" of the #")[0], ""))
+    return choice_of(*cases, (re.split(r"(?: of the)? #", out["said"])[0], ""))
 
 
 _OFFERED_NONE = re.compile(

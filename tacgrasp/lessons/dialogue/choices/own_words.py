@@ -21,8 +21,9 @@ from tacgrasp.lessons.dialogue.choices.conditions import band_part, choice_of
 from tacgrasp.lessons.dialogue.choices.scales import Offer, WordScale
 from tacgrasp.lessons.dialogue.choices.spelling import is_one_way, spelled
 from tacgrasp.lessons.dialogue.conditions import check_of
+from tacgrasp.lessons.dialogue.expression import Expression
 from tacgrasp.lessons.dialogue.families.classes import words as names
-from tacgrasp.lessons.dialogue.meaning import Check, Meaning, Several, Which
+from tacgrasp.lessons.dialogue.meaning import Calculated, Check, Meaning, Several, Which
 
 _WORDS: Mapping[str, tuple[WordScale, str, str]] = {
     "side_x": (scales.SIDE_X, "left", "right"),
@@ -67,6 +68,20 @@ _COMPARED_MEANT = {"least": ">=", "more": ">", "less": "<", "most": "<="}
 _ELSE = re.compile(
     r"\b(?:else|other|another|different|what|which (?:class|shape|of your)|none|name)\b"
 )
+_OTHER_TEXTURE = r"textured|structured|patterned|uneven|not smooth"
+_TEXTURED = re.compile(
+    rf"\bsmooth,? (?:or|and|/) (?:is it |an? )?(?P<a>{_OTHER_TEXTURE})\b|"
+    rf"\b(?P<b>{_OTHER_TEXTURE}),? (?:or|and|/) (?:is it )?smooth\b",
+    re.I,
+)
+_VERDICT = re.compile(
+    r"\b(?P<yes>pass|true|go|ok|okay|accept)(?: or |/| / )(?P<no>fail|false|no[ -]?go|not ok|"
+    r"not okay|"
+    r"reject)\b",
+    re.I,
+)
+"""Two words that stand for yes and no."""
+
 _CLASSES: Mapping[str, tuple[names.Words, ...]] = {
     "shape": (names.SHAPE_NOUNS, names.BARE_SHAPES, names.SHAPE_ADJECTIVES, names.SHAPES_OF_MANY),
     "texture": (names.TEXTURES,),
@@ -78,9 +93,13 @@ def in_its_words(question: str, meaning: Meaning) -> Meaning:
 
     Any other meaning is returned as it is.
     """
+    if truth := _smooth_or_not(question, meaning):
+        return chosen_by(truth, question) or meaning
     if isinstance(meaning, Which) and not meaning.is_open and meaning.name in _CLASSES:
         offered = _offered_classes(asked_words(question).words, meaning.name)
         return replace(meaning, offered=offered)
+    if verdict := _VERDICT.search(question):
+        return _judged(meaning, verdict)
     words = asked_words(spelled(question)).words
     if not re.search(r"\bor\b", words) or is_one_way(words):
         return meaning
@@ -92,6 +111,28 @@ def in_its_words(question: str, meaning: Meaning) -> Meaning:
     elif isinstance(meaning, Several):
         truth = _one_of_both(words, meaning)
     return (chosen_by(truth, question) if truth else None) or meaning
+
+
+def _smooth_or_not(question: str, meaning: Meaning) -> str | None:
+    """Smooth, or a word for every other texture: 'is it smooth or textured?'."""
+    if not (found := _TEXTURED.search(question)):
+        return None
+    is_texture = isinstance(meaning, Which) and meaning.name == "texture"
+    if not is_texture and not (isinstance(meaning, Check) and meaning.test == "texture smooth"):
+        return None
+    return f"'smooth' if texture == 'smooth' else '{(found['a'] or found['b']).lower()}'"
+
+
+def _judged(meaning: Meaning, verdict: re.Match[str]) -> Meaning:
+    """A yes or no by the two words that stand for them."""
+    condition = meaning.condition if isinstance(meaning, Check) else ""
+    if isinstance(meaning, Calculated) and meaning.unit is None:
+        condition = "" if Expression(meaning.truth).choices else meaning.truth
+    if not condition or (isinstance(meaning, Check) and meaning.needed_n):
+        return meaning
+    return Calculated(
+        truth=f"'{verdict['yes'].lower()}' if {condition} else '{verdict['no'].lower()}'", unit=None
+    )
 
 
 def _word(words: str, which: Which) -> str | None:

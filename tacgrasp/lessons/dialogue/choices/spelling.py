@@ -28,6 +28,7 @@ _SPELLED = (
     ),
     (re.compile(r"\b(way|side|half|end|it|that|what|which|she|he)['’]s\b", re.I), r"\1 is"),
     (re.compile(r"\b(it|that|this|they|he|she)['’]d\b", re.I), r"\1 would"),
+    (re.compile(r"(?<=[\w,]) as (?=[a-z]+,? or as |neither\b)", re.I), " "),
     (
         re.compile(
             r"\b(left|right|upper|lower|top|bottom|palm|fingertip|which|either|low|high)"
@@ -46,6 +47,7 @@ def is_one_way(words: str) -> bool:
 
 def spelled(question: str) -> str:
     """A question with contracted verbs and slashes written out, and halves that are no number."""
+    question = re.sub(r"(?<=[a-z]) / (?=[a-z])", " or ", question)
     for pattern, words in _SPELLED:
         question = pattern.sub(words, question)
     return _SLASH.sub(_or_of, question)

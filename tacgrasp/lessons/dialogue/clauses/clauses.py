@@ -11,7 +11,7 @@ from tacgrasp.lessons.dialogue.clauses.items import item_of
 from tacgrasp.lessons.dialogue.clauses.lists import Reader, listed
 from tacgrasp.lessons.dialogue.clauses.thresholds import kept, range_kept
 from tacgrasp.lessons.dialogue.clauses.unfelt import unfelt_query
-from tacgrasp.lessons.dialogue.clauses.verdicts import judged
+from tacgrasp.lessons.dialogue.clauses.verdicts import calls_wrong, judged
 from tacgrasp.lessons.dialogue.meaning import Meaning, Part
 from tacgrasp.lessons.dialogue.query import asked_text, read_query
 
@@ -23,14 +23,15 @@ _SINGLE = ("force", "depth", "area", "distance", "holds", "position", "shape", "
 _AS_ONE = re.compile(
     r"\b(?:both|all)(?: (?:of )?(?:these|them|three|four|those|the following|conditions|boxes|this|"
     r"that))?\b.*"
-    r"\b(?:true|right|hold|met|so|correct|ok|okay|satisfied|the case|fulfilled|apply)\b",
+    r"\b(?:true|right|hold|met|so|correct|ok|okay|satisfied|the case|fulfilled|apply)\b|"
+    r"\b(?:confirm|check|verify) (?:that )?(?:all|both)\b",
     re.I,
 )
 
 
 def judged_as_one(question: str) -> Meaning | None:
-    """The one verdict on what a question wants to hold all at once; None of other questions."""
-    return judged(question) if _AS_ONE.search(question) else None
+    """The one verdict on what a question wants to hold all at once, or calls wrong; else None."""
+    return judged(question) if _AS_ONE.search(question) or calls_wrong(question) else None
 
 
 _NOT_SO = re.compile(

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
+from dataclasses import replace
 
 from tacgrasp.lessons.dialogue.calculations.asked import usual, usual_unit
 from tacgrasp.lessons.dialogue.calculations.quantity_names import UNIT
@@ -41,7 +42,10 @@ _IT = (
     r"number|value|line|threshold|cap|ceiling|rule|amount|level|spec|bound|target|maximum|minimum|"
     r"much|requirement))"
 )
-_WE = r"(?:we|you|i|it|this|the (?:grip|force|contact|touch|gripper|robot|squeeze|reading|press))"
+_WE = (
+    r"(?:we|you|i|it|this|(?:the|this|that) (?:grip|force|contact|touch|gripper|robot|squeeze|"
+    r"reading|press))"
+)
 _VERB = r"(?:is|are|am|have|has|do|does|did|was|were|will|would|can|could)"
 _STILL = (
     r"(?:still |in fact |measure |feel |measuring |feeling |now |already |currently |really |"
@@ -56,7 +60,10 @@ _UNDER = re.compile(
     rf"shy of)(?: {_IT})?(?: (?:now|already|yet))*"
 )
 _KEPT = re.compile(
-    rf"(?:{_VERB} (?:{_WE}|{_IT}) )?{_STILL}(?:within|inside|in|keeping (?:to|within)|"
+    r"pass or fail|ok(?:ay)? or not|good or bad|in or out|"
+    rf"(?:{_VERB} (?:{_WE}|{_IT}) )?{_STILL}(?:(?:in|within) (?:spec|tolerance|range|limits|"
+    rf"bounds)|"
+    r"within|inside|in|keeping (?:to|within)|"
     r"respect(?:ed|ing)?|kept|met|meet(?:ing)?|ok|okay|fine|safe|good|alright|satisfied|obeyed|"
     r"observed|"
     rf"compl(?:y|ying|iant)|pass(?:ing|es)?|held|sticking to|all right)(?: (?:to |"
@@ -64,7 +71,7 @@ _KEPT = re.compile(
 )
 _BROKEN = re.compile(
     rf"(?:{_VERB} (?:{_WE}|{_IT}) )?{_STILL}(?:violat(?:e|ed|ing)|broken|breach(?:ed|ing)?|"
-    r"break(?:ing)?|"
+    r"break(?:ing)?|out(?:side)? of (?:spec|tolerance|range|limits|bounds)|out|off|"
     rf"overstepp(?:ed|ing)|crossed|outside|fail(?:ed|ing)?|miss(?:ed|ing)?)(?: {_IT})?"
 )
 _REACHED = re.compile(
@@ -120,6 +127,14 @@ _RANGE = re.compile(
     rf"up to) "
     rf"(?P<high>#2 (?P<unit>{UNIT}))(?P<after>(?: [a-z]+)*)"
 )
+_AROUND = re.compile(
+    rf"(?P<before>(?:(?!#).)*?)(?P<mid>#1)(?: (?P<mid_unit>{UNIT}))?(?: [a-z]+){{0,3}}? "
+    r"(?:plus minus|tolerance|tolerances|with|within|give or take|allowing|allow)"
+    r"(?: (?:of|an?|plus|minus|or|the|tolerance|is|be))* "
+    rf"(?P<by>#2 (?P<unit>{UNIT}))(?P<after>(?: [a-z]+)*)"
+)
+"""'0.6 mm with 10 % allowed either way'."""
+
 _ONLY_A_TAG = re.compile(rf"{_VERB}(?: not)? {_WE}")
 _NO_RANGE = re.compile(
     r"\b(?:not|never|except|x|y|offset|center|middle|limit|off|edge|apart|difference|if|or)\b"
@@ -161,20 +176,29 @@ def _judged(question: str, read: Callable[[str, tuple[float, ...], str], str]) -
 
 def _in_range(setting: str, numbers: tuple[float, ...], asked: str) -> str:
     """Whether a range that somebody aims at is kept or missed; '' of other questions."""
-    found = _RANGE.fullmatch(setting)
-    if found is None or _NO_RANGE.search(setting) or len(numbers) != 2:
-        return ""
-    if _ONLY_A_TAG.fullmatch(asked):
+    if _NO_RANGE.search(setting) or len(numbers) != 2 or _ONLY_A_TAG.fullmatch(asked):
         return ""
     reader = TermReader(numbers)
-    low, high = (reader.read(f"{found[end][:2]} {found['unit']}") for end in ("low", "high"))
-    if low is None or high is None or not usual_unit(high.dimension):
+    if found := _RANGE.fullmatch(setting):
+        ends = [reader.read(f"{found[end][:2]} {found['unit']}") for end in ("low", "high")]
+    elif found := _AROUND.fullmatch(setting):
+        is_share = found["unit"] == "percent" and found["mid_unit"]
+        middle = reader.read(f"#1 {found['mid_unit'] or found['unit']}")
+        ends = [middle, None if is_share else reader.read(f"#2 {found['unit']}")]
+        share = f"{numbers[1] / 100:g} * {middle.factor}" if is_share and middle else ""
+        ends[1] = replace(middle, expression=share) if middle and share else ends[1]
+    else:
         return ""
-    is_force = high.dimension == "mass" and _OF_FORCE.search(setting)
-    pairs = [alike(usual("force" if is_force else high.dimension), end) for end in (low, high)]
+    first, second = ends
+    if first is None or second is None or not usual_unit(second.dimension):
+        return ""
+    is_force = second.dimension == "mass" and _OF_FORCE.search(setting)
+    pairs = [alike(usual("force" if is_force else second.dimension), each) for each in ends if each]
     if pairs[0] is None or pairs[1] is None:
         return ""
-    inside = f"{pairs[0][1].factor} <= {pairs[0][0].expression} <= {pairs[1][1].factor}"
+    felt, (one, other) = pairs[0][0].expression, (pair[1].factor for pair in pairs if pair)
+    is_around = _RANGE.fullmatch(setting) is None
+    inside = f"abs({felt} - {one}) <= {other}" if is_around else f"{one} <= {felt} <= {other}"
     asked, denied = _undenied(asked)
     is_missed = _BROKEN.fullmatch(asked) is not None
     if not (is_missed or _KEPT.fullmatch(asked) or _REACHED.fullmatch(asked)):

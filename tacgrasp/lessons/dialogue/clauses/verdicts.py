@@ -29,8 +29,10 @@ _PASS = (
     r"match(?:es)?(?: that| it)?|hit|apply|applies|obeyed|in order)"
 )
 _WHAT = (
-    r"(?:it|this|that|these|those|they|we|you|i|both|all(?: of (?:them|it|that))?|each|(?:the|this|"
-    r"that|our|my|its|your) (?:touch|contact|grip|grasp|part|piece|object|thing|hold|rule|"
+    r"(?:it|this|that|these|those|they|we|you|i|she|he|both|all(?: of (?:them|it|that))?|each|"
+    r"(?:the|this|"
+    r"that|our|my|its|your) (?:touch|contact|grip|grasp|part|piece|object|thing|hold|rule|entry|"
+    r"note|label|guess|remark|"
     r"criterion|condition|conditions|requirement|claim|statement|test|check|boxes|case|sample|one|"
     r"spec|reading|state))"
 )
@@ -53,7 +55,10 @@ _TAIL = re.compile(
     re.I,
 )
 _DENYING = re.compile(
-    rf"[\s:;,.?!–—-]*(?:(?:is|am|are|would) {_WHAT}(?: be)? {_FALSE}|am i (?:wrong|mistaken)|"
+    rf"[\s:;,.?!–—'\"-]*(?:(?:is|am|are|was|would) {_WHAT}(?: be)? {_FALSE}|"
+    r"am i (?:wrong|mistaken)|"
+    r"do(?:es)? (?:your|the) (?:readings?|data|sensors?|figures|touch) (?:contradict|disagree with|"
+    r"refute|deny|rule out) (?:this|that|it)|"
     rf"{_FALSE})[\s?.!]*$",
     re.I,
 )
@@ -75,6 +80,8 @@ _NOUN = (
 )
 _MODIFIER = r"(?:[a-z-]+ ){0,3}"
 _HEADS = (
+    r"(?:my|our|the|a) [a-z]+ (?:swears|says|claims|insists|thinks|believes|reckons|maintains|bets|"
+    r"assumes|asserts|wrote|noted|told me|tells me)(?: that)?[:,]? ",
     r"(?:is (?:it|this) )?(?:true|right|correct|yes|pass|go|ok|fact) ?(?:or|/|-) ?(?:false|wrong|"
     r"incorrect|no|fail|no[ -]?go|not|fiction|myth)(?: (?:that|on this one|here|"
     r"question))?[\s:,;?.–—-]+",
@@ -197,6 +204,12 @@ def judged(question: str) -> Calculated | None:
     if not condition or (offers and not (has_tail or _EITHER.search(core))):
         return None
     return Calculated(truth=f"not ({condition})" if denied else condition, unit=None)
+
+
+def calls_wrong(question: str) -> bool:
+    """Whether a question asks behind a statement if it is wrong: '... Is she mistaken?'."""
+    found = _DENYING.search(question)
+    return found is not None and found.start() > 0
 
 
 def _without_tag(text: str) -> tuple[str, bool]:

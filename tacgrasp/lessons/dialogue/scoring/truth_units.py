@@ -22,10 +22,13 @@ def dimension_of(truth: Expression) -> str:
 
     A quotient of two names of one dimension is a ratio, and 100 of them, or of a name over a
     number, percent. A mass times what a gram weighs is a force, and a force over it a mass; so of
-    the force that holds a gram. The root of an area is a length, a force over an area a pressure.
+    the force that holds a gram. The root of an area is a length, a force over an area a pressure,
+    an area times a depth a volume.
     """
     if set(truth.names) == {"force_n", "area_mm2"} and "/" in truth.text:
         return "pressure"
+    if set(truth.names) == {"depth_mm", "area_mm2"} and "/" not in truth.text:
+        return "volume"
     if truth.is_percentage:
         return "fraction"
     if "gram_n" in truth.names and set(truth.names) <= {"mass_g", "gram_n", *_FORCES}:
@@ -63,6 +66,9 @@ def scale_of(truth: Expression) -> float:
     if factor <= 0:
         return 1.0
     own = 1 / GRAVITY_N_PER_G if dimension == "mass" else GRAVITY_N_PER_G
+    for unit in UNITS.values():
+        if unit.dimension == dimension and math.isclose(factor, own / unit.size, rel_tol=0.003):
+            return 1 / unit.size
     power = round(math.log10(factor / own))
     return 10.0**power if math.isclose(factor, own * 10.0**power, rel_tol=0.01) else 1.0
 
