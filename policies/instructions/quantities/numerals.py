@@ -44,7 +44,8 @@ _TENS = {
 _SCALES = {"hundred": 100, "thousand": 1000, "million": 1_000_000}
 _PARTS = {
     "half": 1 / 2, "halves": 1 / 2, "third": 1 / 3, "quarter": 1 / 4, "fourth": 1 / 4,
-    "fifth": 1 / 5, "eighth": 1 / 8, "tenth": 1 / 10,
+    "fifth": 1 / 5, "sixth": 1 / 6, "eighth": 1 / 8, "tenth": 1 / 10,
+    "twelfth": 1 / 12, "twentieth": 1 / 20, "fiftieth": 1 / 50,
     "hundredth": 1 / 100,
     "thousandth": 1 / 1000,
 }  # fmt: skip

@@ -150,7 +150,12 @@ _GRAVITY = (
     r"(?:(?:the )?(?:g|gravity) ?(?:=|:|as|at|of|is|being|taken as|set (?:to|at)|equals?(?: to)?) ?"
     rf"9[.,]8\d*{_PER_SECOND}?|9[.,]8\d*{_PER_SECOND})"
 )
-_UNIT_NAME = r"[a-zµ²]+(?:[-/ ](?:force|of force|[a-z]{1,4}[²2]?))?"
+_UNIT_NAME = (
+    r"(?:psi|m?bar|atm|[khm]?pa|(?:kilo|mega)?pascals?|mmhg|torr|n/[cm]m²|[mkc]?n|(?:milli)?newtons?|"
+    r"kgf|lbf|ozf|dyn(?:es?)?|kiloponds?|(?:pounds?|ounces?|lbs?|oz|grams?|kilograms?|kilos?|k?g)"
+    r"(?:[- ](?:of )?force)?|inch(?:es)?|in|thou|mils?|[mcµn]m|milli?met(?:re|er)s?|microns?|"
+    r"centimet(?:re|er)s?|ml|µl)"
+)
 _CONVERSION = (
     rf"(?:1|an?|one) {_UNIT_NAME} ?(?:=|≈|is|being|equals|makes) (?:about |roughly )?"
     rf"\d*[.,]?\d+ {_UNIT_NAME}"

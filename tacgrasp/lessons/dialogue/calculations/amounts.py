@@ -19,10 +19,11 @@ from tacgrasp.lessons.dialogue.calculations.differences import (
     from_point,
     into_band,
     missing,
+    signed_offset,
     taken,
 )
 from tacgrasp.lessons.dialogue.calculations.footprints import circle, free_area, pressure, volume
-from tacgrasp.lessons.dialogue.calculations.loads import load, needed, safety_factor
+from tacgrasp.lessons.dialogue.calculations.loads import as_many_as, load, needed, safety_factor
 from tacgrasp.lessons.dialogue.calculations.quantity_names import UNIT, unit_of
 from tacgrasp.lessons.dialogue.calculations.scales import on_scale
 from tacgrasp.lessons.dialogue.calculations.shares import (
@@ -77,9 +78,9 @@ def calculated_amount(asked: AskedWords) -> Calculated | None:
     if alone := _OF_FORCE.fullmatch(asked.words):  # 'kilos of force, please'
         asked = replace(asked, words="force", unit=unit_of(alone["unit"]))
     readers: tuple[Callable[[AskedWords], Term | None], ...] = (
-        to_border, pressure, stiffness, circle, free_area, volume, on_scale, safety_factor, needed,
-        load, unused, share, ratio, missing, apart, taken, from_point, whole_share, into_band,
-        _counted, _weight, _stood_at, _alone,
+        to_border, pressure, stiffness, circle, free_area, volume, as_many_as, on_scale,
+        safety_factor, needed, load, unused, share, ratio, missing, signed_offset, apart, taken,
+        from_point, whole_share, into_band, _counted, _weight, _stood_at, _alone,
     )  # fmt: skip
     for reader in readers:
         if (term := reader(asked)) and (amount := amount_of(term, asked)):

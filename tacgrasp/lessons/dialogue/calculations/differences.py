@@ -197,6 +197,28 @@ def apart(asked: AskedWords) -> Term | None:
     return None
 
 
+_RIGHT_IS_PLUS = re.compile(
+    r"\b(?:plus|positive) (?:for|is|to|means|meaning) (?:the )?(?:right|up)\b"
+)
+_TO_PLACE = re.compile(r"\b(?:middle|center|midline|midpoint)\b")
+_SIDEWAYS = re.compile(r"\b(?:sideways|horizontally|right|left|across)\b")
+_UPWARD = re.compile(r"\b(?:height|high|up|above|over|vertically|upward|upwards)\b")
+
+
+def signed_offset(asked: AskedWords) -> Term | None:
+    """The coordinate, where a signed distance from the middle is asked for in plain words."""
+    words = asked.words
+    is_told = _RIGHT_IS_PLUS.search(words) is not None
+    if not (asked.is_signed or is_told) or asked.numbers or not _TO_PLACE.search(words):
+        return None
+    if re.search(r"\b(?:band|force|limit|border|edge|corner|depth|area)\b", words):
+        return None
+    is_x, is_y = _SIDEWAYS.search(words) is not None, _UPWARD.search(words) is not None
+    if is_x == is_y:
+        return None
+    return Term(expression="x_mm" if is_x else "y_mm", dimension="length", words="")
+
+
 def taken(asked: AskedWords) -> Term | None:
     """One term taken from another one, or added to it."""
     for patterns, sign in (((*_TAKEN, _BEYOND), "-"), (_ADDED, "+")):

@@ -18,7 +18,7 @@ import re
 from tacgrasp.lessons.dialogue.calculations.asked import AskedWords, usual
 from tacgrasp.lessons.dialogue.calculations.phrases import is_made_of
 from tacgrasp.lessons.dialogue.calculations.quantity_names import THING, UNIT, unit_of
-from tacgrasp.lessons.dialogue.calculations.terms import PLAIN, Term
+from tacgrasp.lessons.dialogue.calculations.terms import PLAIN, Term, in_newtons
 from tacgrasp.lessons.dialogue.meaning import Calculated
 from tacgrasp.lessons.dialogue.quantities import UNITS
 
@@ -103,6 +103,43 @@ _FACTOR = re.compile(
     r"(?:factor of safety|safety factor|holding factor|safety ratio|margin of safety as a factor|"
     r"how many times (?:over|as much as needed|its weight))"
 )
+
+
+_MANY_THINGS = re.compile(
+    rf"\bhow many (?:of (?:them|these|those|such)|#1 |(?!(?:{UNIT})\b)#?[a-z]+)"
+)
+_EQUALS = re.compile(
+    r"\b(?:equals?|equalling|match(?:es)?|as (?:thick|heavy|deep|much|hard) as|stack(?:ed)?|"
+    r"weights?|"
+    r"weigh|weighs|weighing|push|press|balance|make(?:s)? up|correspond|worth|same)\b"
+)
+
+
+def as_many_as(asked: AskedWords) -> Term | None:
+    """How many things of a named thickness are the depth, or of a named mass weigh the force.
+
+    'How many 0.1 mm sheets, stacked, equal the depth?'
+    """
+    words = asked.words
+    if asked.unit or len(asked.numbers) != 1 or not _MANY_THINGS.search(words):
+        return None
+    named = re.search(rf"#1 (?:{UNIT})\b", words)
+    each = asked.term(named[0]) if named else None
+    if (
+        each is None
+        or not _EQUALS.search(words)
+        or re.search(r"\b(?:limit|band|area|pad)\b", words)
+    ):
+        return None
+    if each.dimension == "length" and re.search(
+        r"\b(?:depth|deep|dent|indentation|gone in|sunk)\b", words
+    ):
+        return Term(expression=f"depth_mm / {each.divisor}", dimension=PLAIN, words="")
+    is_force = re.search(r"\b(?:force|push|press|squeeze|grip)\w*\b", words)
+    if each.dimension not in ("mass", "force") or not is_force:
+        return None
+    weight = in_newtons(each)
+    return Term(expression=f"force_n / {weight.divisor}", dimension=PLAIN, words="")
 
 
 def load(asked: AskedWords) -> Term | None:

@@ -16,7 +16,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
-from tacgrasp.lessons.dialogue.calculations.asked import AskedWords, usual, usual_unit
+from tacgrasp.lessons.dialogue.calculations.asked import (
+    AskedWords,
+    asked_words,
+    usual,
+    usual_unit,
+)
 from tacgrasp.lessons.dialogue.calculations.quantity_names import UNIT
 from tacgrasp.lessons.dialogue.calculations.terms import UNSAID, Term, alike
 from tacgrasp.lessons.dialogue.choices.conditions import NEITHER, choice_of
@@ -39,7 +44,7 @@ _FROM = r"from|at least|no less than|upwards? of|starting (?:at|from)"
 _HEAD = (
     r"(?:(?:for|an?|the|if|when|where|is|are|being|means?|meaning|as|at|with|anything|everything|"
     r"all|whatever|what|it|that|they|of|values?|forces?|depths?|areas?|masses|weights?|readings?|"
-    r"parts?|things?|objects?|items?|pieces?|grips?|indentations?|dents?|prints?|patches|presses|"
+    r"takes?|those|dent|contact|parts?|things?|objects?|items?|pieces?|grips?|indentations?|dents?|prints?|patches|presses|"
     r"contacts?) )*?"
 )
 _REST = (
@@ -59,7 +64,8 @@ _VALUES = (
     r"(?:less|below|under|down|lighter|smaller|lower))|"
     rf"(?P<above>{_ABOVE}) (?P<a>#\d+)(?: (?P<a_unit>{UNIT}))?|"
     rf"(?P<from>{_FROM}) (?P<f>#\d+)(?: (?P<f_unit>{UNIT}))?|"
-    rf"(?P<rest>{_REST}))(?: (?:of|in) (?:the )?(?:pad|force|grip|depth|mass|weight))?"
+    rf"(?P<rest>{_REST}))(?: (?:of|in) (?:the )?(?:pad|force|grip|depth|mass|weight|"
+    r"(?:(?:hard|force|never exceed) )?limit))?"
 )
 _NO_LABEL = (
     r"(?!(?:and|or|but|the|a|an|is|are|am|it|its|of|for|if|as|that|this|to|be|we|i|you|me|us|with|"
@@ -104,9 +110,21 @@ _EITHER = re.compile(
     rf"(?P<c>{_LESS_WORDS}) (?:or|and|versus|vs) (?:rather )?(?P<d>{_MORE_WORDS}))\b"
 )
 
+_SHARE_OF_LIMIT = re.compile(
+    r"\b(?:(?:share|part|percentage|percent|fraction) of (?:the )?(?:(?:hard|force|"
+    r"never exceed) )?limit|"
+    r"(?:limit (?:share|usage)))\b"
+)
+_SHARE = Term(expression="100 * force_n / limit_n", dimension="fraction", words="it", is_sum=True)
+"""What values in percent of the limit are of."""
+
+_LETTER = re.compile(r"\b[A-E]\b(?!['’])")
+
 _GRADES = re.compile(
     rf"{_MORE_WORDS}|{_LESS_WORDS}|medium|mid|middle|middling|fair|normal|ok|okay|fine|good|bad|"
-    r"moderate|average|standard|acceptable|pass|fail|safe|unsafe|green|amber|yellow|red|poor|"
+    rf"warn|"
+    r"warning|fault|alarm|error|moderate|average|standard|acceptable|pass|fail|safe|unsafe|green|"
+    r"amber|yellow|red|poor|"
     r"excellent|short|long|easy|rough|just right"
 )
 """Words that need no quotes and no verb to stand for values."""
@@ -153,6 +171,10 @@ def binned(question: str, asked: AskedWords) -> str | None:
     """
     if truth := _divided(asked):
         return truth
+    if len(set(_LETTER.findall(question))) > 1:
+        named = _LETTER.sub(lambda each: f"letter{each[0].lower()}", question)
+        truth = binned(named, asked_words(named))
+        return truth and re.sub(r"'letter([a-e])'", lambda each: f"'{each[1].upper()}'", truth)
     starts = [match.start() for match in re.finditer(r"(?<![^ ])(?=[a-z#])", asked.words)]
     rows = [
         _row(asked.words, pattern, start)
@@ -168,8 +190,10 @@ def binned(question: str, asked: AskedWords) -> str | None:
 def _is_label(question: str, match: re.Match[str]) -> bool:
     """Whether a word stands for values: by quotes, a verb between them, or as a usual grade."""
     label = match["label"]
-    if _GRADES.fullmatch(label) or re.search(
-        rf"['\"“‘]{re.escape(label)}['\"”’,.]", question, re.I
+    if (
+        _GRADES.fullmatch(label)
+        or re.search(rf"['\"“‘]{re.escape(label)}['\"”’,.]", question, re.I)
+        or re.fullmatch(r"letter[a-e]", label)
     ):
         return True
     return _MEANS.search(match[0]) is not None and not re.fullmatch(UNIT, label)
@@ -188,11 +212,16 @@ def _row(words: str, pattern: re.Pattern[str], start: int) -> Sequence[re.Match[
 
 def _chosen(asked: AskedWords, found: Sequence[re.Match[str]]) -> str | None:
     before, after = asked.words[: found[0].start()], asked.words[found[-1].end() :]
+    is_of_limit = _SHARE_OF_LIMIT.search(asked.words) is not None
+    if is_of_limit:
+        before = _SHARE_OF_LIMIT.sub("", before)
     if _OTHER.search(re.sub(r"\bif\s*$", "", before)) or _OTHER.search(after):
         return None
     ends = [_ends(asked, match) for match in found]
     named = next((term for each in ends for term in each if term and term.unit), None)
     subject = _subject(named, f"{before} {after}") if named else None
+    if subject and is_of_limit:
+        subject = _SHARE if subject.dimension == _SHARE.dimension else None
     if named is None or subject is None:
         return None
     if any(end.dimension not in (named.dimension, UNSAID) for each in ends for end in each if end):

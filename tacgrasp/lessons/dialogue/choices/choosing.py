@@ -11,7 +11,7 @@ Not here: where a word is to be said as the question says it
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 from tacgrasp.lessons.dialogue.calculations.asked import AskedWords, asked_words
 from tacgrasp.lessons.dialogue.calculations.terms import Term
@@ -70,7 +70,7 @@ _NO_CHOICE = re.compile(
 def chosen(question: str) -> Calculated | None:
     """What a question means that names alternatives; None where it says something else too."""
     asked = asked_words(spelled(question))
-    if truth := binned(question, asked):
+    if truth := _quadrant(asked) or binned(question, asked):
         return chosen_by(truth, question)
     if truth := named_or_none(asked):
         return chosen_by(truth, question)
@@ -88,15 +88,43 @@ def chosen(question: str) -> Calculated | None:
     return None
 
 
+_QUADRANTS: Sequence[Mapping[str, str]] = (
+    {"ne": "ne", "nw": "nw", "sw": "sw", "se": "se"},
+    {"ne": "first", "nw": "second", "sw": "third", "se": "fourth"},
+    {"ne": "northeast", "nw": "northwest", "sw": "southwest", "se": "southeast"},
+)
+_OF_QUADRANT = re.compile(
+    r"\b(?:not|if|than|force|depth|area|why|how|band|limit|#\d+|shape|texture)\b"
+)
+
+
+def _quadrant(asked: AskedWords) -> str | None:
+    """The quadrant of the pad that the contact is in, by names for all four of them."""
+    words = set(asked.words.split())
+    names = next((each for each in _QUADRANTS if words.issuperset(each.values())), None)
+    if names is None or _OF_QUADRANT.search(asked.words):
+        return None
+    if names["ne"] == "first" and "quadrant" not in words:
+        return None
+    right, left = (
+        f"('{names[f'n{side}']}' if y_mm > 0 else '{names[f's{side}']}')" for side in "ew"
+    )
+    return f"{right} if x_mm > 0 else {left}"
+
+
 def chosen_by(truth: str, question: str) -> Calculated | None:
     """A choice between words as the question writes them; None where nothing is felt of it."""
     for word in Expression(truth).choices:
-        if re.search(r"\d", word):
+        if re.search(r"\d", word) or len(word) == 1:
             continue
         said = r"[\s-]+".join(map(re.escape, word.split())).replace("center", "cent(?:er|re)")
-        written = re.search(said, question, re.I)
+        written = re.search(rf"(?<!\w){said}(?!\w)", question, re.I) or re.search(
+            said, question, re.I
+        )
         if written and "'" not in written[0]:
-            truth = truth.replace(f"'{word}'", f"'{' '.join(written[0].lower().split())}'")
+            is_code = written[0].isupper() and len(written[0]) > 1  # 'NE', 'WARN'
+            said = written[0] if is_code else " ".join(written[0].lower().split())
+            truth = truth.replace(f"'{word}'", f"'{said}'")
     return Calculated(truth=truth, unit=None) if Expression(truth).names else None
 
 
