@@ -88,9 +88,11 @@ def _make(flags: RowFlags, row: str, seed: int) -> None:
     from tacgrasp.console import make_console
     from tacgrasp.pretraining.make_row import RowRequest, make_row
     from tacgrasp.pretraining.report.print_results import print_results
+    from tacgrasp.training.captions.caption_row import make_caption_row
 
     settings = {key: value for key, value in vars(flags).items() if key not in ("name", "seed")}
-    path, results = make_row(RowRequest(name=row, seed=seed, **settings))
+    request = RowRequest(name=row, seed=seed, **settings)
+    path, results = (make_caption_row if request.recipe.behind else make_row)(request)
     print_results(results, None)
     make_console().print(f"written   {path}", markup=False, highlight=False, soft_wrap=True)
 

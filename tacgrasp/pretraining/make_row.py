@@ -6,7 +6,8 @@
 
 The same command continues where it was stopped: stages at their checkpoints, encoded contacts where
 they are; probes and scores, which take less, are computed again. An encoder that is there is taken
-as it is. Not here: the list of rows (``report.rows``).
+as it is. Not here: the list of rows (``report.rows``), rows of captions
+(``tacgrasp.training.captions.caption_row``).
 """
 
 from __future__ import annotations
@@ -132,7 +133,7 @@ def make_row(request: RowRequest) -> tuple[Path, list[Result]]:
                 points=NUM_POINTS,
             )
         else:
-            trained = _trained(request, run, clock, clip_clock)
+            trained = trained_encoder(request, run, clock, clip_clock)
         evaluation = EvaluationRun(
             weights=request.group,
             data=request.data,
@@ -147,16 +148,16 @@ def make_row(request: RowRequest) -> tuple[Path, list[Result]]:
     minutes = {"clip": clip_clock.minutes("clip")} if request.recipe.has_towers else {}
     parts = ("train", "measure") if request.recipe.samples else ("measure",)
     minutes |= {part: clock.minutes(part) for part in parts}
-    row = _row(request, trained, minutes, results)
+    row = row_of(request, trained, minutes, results)
     path = save_row(request.results, row)
     clock.finish()
     return path, row.results()
 
 
-def _trained(
+def trained_encoder(
     request: RowRequest, run: PretrainingRun, clock: WorkClock, clip_clock: WorkClock
 ) -> TrainedMethod:
-    """Train CLIP and the encoder, each where it is not there already."""
+    """Train CLIP and the encoder of a row, each where it is not there already."""
     recipe, clip = request.recipe, request.group / "clip"
     if recipe.has_towers and (clip_clock.seconds or not clip.exists()):
         with clip_clock.part("clip"):
@@ -198,12 +199,13 @@ def _measured(run: EvaluationRun, recipe: RowRecipe, trained: TrainedMethod) -> 
     return results + (zero_shot(run) + retrieval(run) if is_aligned else [])
 
 
-def _row(
+def row_of(
     request: RowRequest,
     trained: TrainedMethod,
     minutes: Mapping[str, float | None],
     results: list[Result],
 ) -> RowFile:
+    """What is written of a row that was measured."""
     learned, checksums = None, {"data": results[0].data}
     if trained.budget is not None:
         learned = ContactDataset(request.learned).origin

@@ -107,7 +107,9 @@ def answer(meaning: Meaning, scene: AskedScene) -> Answer:
             return Answer(text=OFF_TOPIC, kind=AnswerKind.OFF_TOPIC, decidable=False)
 
 
-_COMPARED = re.compile(r"(?:not \()?(?P<left>[^<>=]+?) (?:<=|>=|<|>) [\d.]+\)?")
+_COMPARED = re.compile(
+    rf"(?P<left>{re.escape(MEAN_PRESSURE)}|(?:min\(|hypot\()?pad_[^<>=]+?) (?:<=|>=|<|>) [\d.]+"
+)
 
 
 def _lacking(meaning: Meaning, scene: AskedScene) -> Answer | None:
@@ -196,7 +198,7 @@ def _compared(truth: str, scene: AskedScene) -> str:
         return ""
     if found["left"] == MEAN_PRESSURE:
         return f"the mean pressure is {value_text(value, 'kPa')}"
-    return f"the distance is {value_text(value, 'mm')}" if "pad_" in found["left"] else ""
+    return f"the distance is {value_text(value, 'mm')}"
 
 
 def _chosen(word: str, clauses: list[str], choices: Sequence[str]) -> str:

@@ -117,29 +117,35 @@ class RowFile:
     def results(self) -> list[Result]:
         """Its results, marked in their variants, so that they are never averaged with others."""
         return [
-            Result(
-                table=table,
-                method=self.method,
-                variant=", ".join([self.variant, *self.marks]),
-                split=split,
-                seed=self.seed,
-                data=self.data,
-                budget=self.budget,
-                command=self.command,
-                contacts=self.contacts[split],
-                values={k: v for k, v in values.items() if not isinstance(v, Mapping)},
-                confusion=self.confusion.get(table, {}).get(split, {}),
-                device=self.device,
-                learned_seed=None if self.learned_from is None else self.seed,
-                points=self.points,
-                minutes=self.total_minutes,
-                title=ROWS[self.row].about if self.row in ROWS else "",
-            )
+            self._result(table, method, split, values)
             for table, of_table in self.scores.items()
-            for split, values in (
-                of_table if table == "numbers" else of_table.get(self.method, {})
+            for method, of_method in (
+                {self.method: of_table} if table == "numbers" else of_table
             ).items()
+            for split, values in of_method.items()
         ]
+
+    def _result(self, table: str, method: str, split: str, values: Mapping[str, Any]) -> Result:
+        """One of them; a row of captions also has trivial ones, which are of no method."""
+        is_own = method == self.method
+        return Result(
+            table=table,
+            method=method,
+            variant=", ".join([self.variant, *self.marks]) if is_own else "",
+            split=split,
+            seed=self.seed,
+            data=self.data,
+            budget=self.budget,
+            command=self.command,
+            contacts=self.contacts[split],
+            values={k: v for k, v in values.items() if not isinstance(v, Mapping)},
+            confusion=self.confusion.get(table, {}).get(split, {}),
+            device=self.device,
+            learned_seed=None if self.learned_from is None else self.seed,
+            points=self.points,
+            minutes=self.total_minutes,
+            title=ROWS[self.row].about if is_own and self.row in ROWS else "",
+        )
 
 
 def file_name(row: str, seed: int) -> str:

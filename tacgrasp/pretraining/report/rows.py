@@ -43,6 +43,9 @@ DATA: Mapping[str, str] = {
 """``ContactDataset.origin`` of the sets (``tacgrasp data generate --set NAME --seed 0``); rows of
 other data are marked."""
 
+SHIPPED = "shipped"
+"""The weights that are shipped, in the place of a row."""
+
 EVEN = "small"
 """Encoder of all rows of points that are compared on equal terms: the paper's 1024 even points."""
 
@@ -66,6 +69,8 @@ class RowRecipe:
         learns_from: Name out of ``DATA``. Every row is measured on ``paper``.
         optimiser: What moves the weights of its encoder and of its CLIP.
         variant: Name in tables of what has no encoder; that of the encoder when empty.
+        behind: Row behind whose encoder a language model learns to caption, or ``SHIPPED``; its
+            captions are then all that is measured.
     """
 
     about: str
@@ -78,17 +83,19 @@ class RowRecipe:
     learns_from: str = "paper"
     optimiser: OptimiserName = "adamw"
     variant: str = ""
+    behind: str = ""
 
     @property
     def samples(self) -> int:
         """Samples that its encoder sees; 0 where nothing is learned."""
-        learns = self.method in METHODS and self.method != "random"
+        learns = self.method in METHODS and self.method != "random" and self.behind != SHIPPED
         return int(BUDGET * self.part) if learns else 0
 
     @property
     def has_towers(self) -> bool:
         """Whether it is aligned with the towers of a CLIP."""
-        return self.method in (*ALIGNED_METHODS, *IMAGE_METHODS)
+        aligned = (*ALIGNED_METHODS, *IMAGE_METHODS)
+        return self.method in aligned and self.behind != SHIPPED
 
     @property
     def towers(self) -> str:
@@ -170,6 +177,24 @@ ROWS: Mapping[str, RowRecipe] = {
     "heads_off": _quarter("CLTP without the state heads' losses", CltpRecipe(head_weight=0.0)),
     "heads_alone": _quarter(
         "CLTP by the state heads' losses alone", CltpRecipe(contrast_weight=0.0, prompt_weight=0.0)
+    ),
+    "shipped_llm": RowRecipe(
+        about="Tac3D-LLM as shipped, learned from the set full",
+        method="cltp",
+        variant=SHIPPED,
+        behind=SHIPPED,
+    ),
+    "cltp_even_llm": RowRecipe(
+        about="Tac3D-LLM: a language model behind CLTP, the paper's 1024 even points",
+        method="cltp",
+        preset=EVEN,
+        behind="cltp_even",
+    ),
+    "point_bert_llm": RowRecipe(
+        about="PointBERT-LLM", method="point_bert", preset=EVEN, behind="point_bert"
+    ),
+    "point_mae_llm": RowRecipe(
+        about="PointMAE-LLM", method="point_mae", preset=EVEN, behind="point_mae"
     ),
     "geometric_baseline": RowRecipe(
         about="direct computation from the 1024 points",

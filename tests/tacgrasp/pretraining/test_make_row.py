@@ -161,9 +161,8 @@ def test_each_row_asks_for_its_own_training(
     monkeypatch.setattr(make_row, "pretrain", noted)
     monkeypatch.setattr(make_row, "pretrain_clip", clip_noted)
     folders = set()
-    for name, recipe in ROWS.items():
-        if not recipe.samples:
-            continue
+    trained = {name: each for name, each in ROWS.items() if each.samples and not each.behind}
+    for name, recipe in trained.items():
         asked.clear()
         request = RowRequest(
             name=name,
@@ -186,7 +185,7 @@ def test_each_row_asks_for_its_own_training(
             assert (asked["clip"], asked["clip_steps"]) == (recipe.clip, 700)
     assert Path("paper-captions-seed1/papers_losses") in folders
     assert Path("full-seed1/cltp_full") in folders
-    assert len(folders) == sum(bool(recipe.samples) for recipe in ROWS.values())
+    assert len(folders) == len(trained)
 
 
 def test_work_adds_up_over_interruptions(tmp_path: Path) -> None:
