@@ -154,8 +154,9 @@ def understood_by_grammar(question: str, before: str = "") -> ReadQuestion | Non
     """
     if stated := denied_statement(question):
         return _denied(understood_by_grammar(f"Is it true that {stated}", before), question)
-    if (asked := without_remark(question)) and (read := understood_by_grammar(asked, before)):
-        return _in_class_words(read)
+    alone = without_remark(question)
+    if alone and (in_words_alone := understood_by_grammar(alone, before)):
+        return _in_class_words(in_words_alone)
     question = in_words(question)
     plain = plainer(question)
     is_denied = is_denied_first(question) and not is_denied_first(plain)

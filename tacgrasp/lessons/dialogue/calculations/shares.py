@@ -186,9 +186,9 @@ def stiffness(asked: AskedWords) -> Term | None:
         unit = "N/mm" if named[0] == "stiffness" else "mm/N"
     dimensions = [UNITS[part].dimension for part in unit.split("/") if part in UNITS]
     expression = {
-        ("force", "length"): "force_n / depth_mm",
-        ("length", "force"): "depth_mm / force_n",
-    }.get(tuple(dimensions))
+        "force/length": "force_n / depth_mm",
+        "length/force": "depth_mm / force_n",
+    }.get("/".join(dimensions))
     if expression is None or _OF_OTHERS.search(words):
         return None
     return Term(expression=expression, dimension=unit, words="")

@@ -90,7 +90,7 @@ def test_an_encoder_is_trained_and_a_model_behind_it_is_rated(
     assert set(made.minutes) == {"train", "language", "measure"}
     again = row("point-mae-llm", *flags)
     assert again.scores == made.scores
-    assert again.minutes["language"] == made.minutes["language"]  # what is done again is not counted
+    assert again.minutes["language"] == made.minutes["language"]  # done again, not counted
     main(["eval", "report", "--results", str(tmp_path / "results")])
     page = (tmp_path / "results/pretraining.md").read_text()
     line = next(each for each in page.splitlines() if each.startswith("| PointMAE-LLM"))
