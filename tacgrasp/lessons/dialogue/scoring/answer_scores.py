@@ -16,7 +16,7 @@ from tacgrasp.lessons.dialogue.quantities import GRAVITY_N_PER_G, UNITS
 from tacgrasp.lessons.dialogue.scene import NAMES, AskedScene
 from tacgrasp.lessons.dialogue.scoring.answer_reading import AnswerReading, Measured, read_answer
 from tacgrasp.lessons.dialogue.scoring.question_file import UNDECIDABLE, QuestionRow
-from tacgrasp.lessons.dialogue.scoring.truth_units import dimension_of, scale_of
+from tacgrasp.lessons.dialogue.scoring.truth_units import dimension_of, is_count, scale_of
 
 VERDICTS = ("contact", "cut")
 """Names whose value is yes or no."""
@@ -88,8 +88,15 @@ def _is_of_kind(reading: AnswerReading, row: QuestionRow) -> bool:
         return reading.is_yes is not None
     if row.kind is AnswerKind.NUMBER:
         wanted = dimension_of(row.truths[0])
-        return reading.is_yes is None and bool(_converted(reading.numbers, wanted, None))
+        is_counted = is_count(row.truths[0]) and _is_bare(reading)
+        is_given = is_counted or bool(_converted(reading.numbers, wanted, None))
+        return reading.is_yes is None and is_given
     return all(_says_something(reading, truth) for truth in row.truths)
+
+
+def _is_bare(reading: AnswerReading) -> bool:
+    """Whether all numbers of an answer stand without a unit."""
+    return bool(reading.numbers) and not any(number.dimension for number in reading.numbers)
 
 
 def _says_something(reading: AnswerReading, truth: Expression) -> bool:
@@ -108,11 +115,13 @@ def _is_right(
     if row.kind is AnswerKind.YES_NO:
         return reading.is_yes == bool(truths[0].value)
     if row.kind is AnswerKind.NUMBER:
-        measured = _converted(reading.numbers, dimension_of(row.truths[0]), scene)
+        truth = row.truths[0]
+        wanted = "" if is_count(truth) and _is_bare(reading) else dimension_of(truth)
+        measured = _converted(reading.numbers, wanted or "ratio", scene)
         is_alone = len(measured) == len(reading.numbers) and bool(measured)
         values = [number.value for number in measured]
         is_one = is_alone and max(values) - min(values) <= 1e-6 + 1e-3 * abs(values[0])
-        return is_one and _is_near(measured[0], row, row.truths[0], truths[0])
+        return is_one and _is_near(measured[0], row, truth, truths[0])
     return _has_all(reading, row, truths, scene)
 
 

@@ -49,6 +49,14 @@ def dimension_of(truth: Expression) -> str:
     return "ratio" if first == "fraction" and truth.is_hundredth else first
 
 
+def is_count(truth: Expression) -> bool:
+    """Whether it tells how many things of one size are as much: ``depth_mm / 0.05``."""
+    if (by := truth.divisor) is None or _is_gravity(by):
+        return False
+    sizes = [unit.size for unit in UNITS.values() if unit.dimension == dimension_of(truth)]
+    return by < 1 or not any(math.isclose(by, size, rel_tol=1e-3) for size in sizes)
+
+
 def scale_of(truth: Expression) -> float:
     """How many of the unit that a truth is stated in make one of its dimension's own.
 

@@ -305,3 +305,19 @@ def test_the_kind_of_a_wrong_answer_can_be_right():
     assert score_answer("A sphere.", row("text", "shape"), HELD).right_kind
     assert not score_answer("Goal 1.90 - 3.90 N.", row("yes_no", "force_n > 1"), HELD).right_kind
     assert not score_answer("A sphere.", row("yes_no", "contact"), HELD).right_kind
+
+
+@pytest.mark.parametrize(
+    ("truth", "text", "is_right"),
+    [
+        ("depth_mm / 0.05", "3.8.", True),
+        ("depth_mm / 0.05", "4.8.", False),
+        ("depth_mm / 0.05", "0.19 mm.", False),
+        ("depth_mm * 1000", "190.", False),
+        ("depth_mm / 25.4", "0.0075 in.", True),
+        ("force_n / 9.81 * 1000 / 28.35", "2.98 ozf.", True),
+        ("area_mm2 * depth_mm", "7.04 mm³.", True),
+    ],
+)
+def test_a_count_needs_no_unit_and_every_unit_counts(truth, text, is_right):
+    assert right(text, "number", truth) is is_right
