@@ -18,6 +18,9 @@ from tacgrasp.lessons.dialogue.scoring.answer_reading import AnswerReading, Meas
 from tacgrasp.lessons.dialogue.scoring.question_file import UNDECIDABLE, QuestionRow
 from tacgrasp.lessons.dialogue.scoring.truth_units import dimension_of, is_count, scale_of
 
+_WEIGHTS = tuple(UNITS[name].size for name in ("kgf", "lbf", "ozf"))
+"""Sizes of the units of force that are named after a mass."""
+
 VERDICTS = ("contact", "cut")
 """Names whose value is yes or no."""
 
@@ -174,7 +177,7 @@ def _converted(
     area_mm2 = 100.0 if scene is None else scene.sensor.area_mm2
     factors = {(dimension, dimension): 1.0}
     factors["mass", "force"] = GRAVITY_N_PER_G
-    if all(math.isclose(number.size, UNITS["kgf"].size) for number in numbers):
+    if all(any(math.isclose(each.size, size) for size in _WEIGHTS) for each in numbers):
         factors["force", "mass"] = 1 / GRAVITY_N_PER_G
     factors["area", "fraction"] = 100 / area_mm2
     factors["fraction", "ratio"] = 0.01
