@@ -132,16 +132,6 @@ class Expression:
         return 1.0
 
     @property
-    def divisor(self) -> float | None:
-        """The number that a single quantity is divided by; None of anything else."""
-        match self._tree:
-            case ast.BinOp(
-                op=ast.Div(), left=ast.Name(), right=ast.Constant(value=int(by) | float(by))
-            ):
-                return float(by)
-        return None
-
-    @property
     def is_percentage(self) -> bool:
         """Whether 100 times a quotient is in it."""
         nodes = list(ast.walk(self._tree))

@@ -50,11 +50,14 @@ def dimension_of(truth: Expression) -> str:
 
 
 def is_count(truth: Expression) -> bool:
-    """Whether it tells how many things of one size are as much: ``depth_mm / 0.05``."""
-    if (by := truth.divisor) is None or _is_gravity(by):
+    """Whether it may tell how many things of one size are as much: ``depth_mm / 0.05``."""
+    if "/" not in truth.text or len(truth.names) != 1 or not (factor := _factor(truth)):
         return False
-    sizes = [unit.size for unit in UNITS.values() if unit.dimension == dimension_of(truth)]
-    return by < 1 or not any(math.isclose(by, size, rel_tol=1e-3) for size in sizes)
+    dimension = dimension_of(truth)
+    sizes = [unit.size for unit in UNITS.values() if unit.dimension == dimension]
+    if dimension == "mass" and truth.names[0] in _FORCES:
+        sizes = [size * GRAVITY_N_PER_G for size in sizes]
+    return not any(math.isclose(factor * size, 1.0, rel_tol=3e-3) for size in sizes)
 
 
 def scale_of(truth: Expression) -> float:

@@ -312,6 +312,9 @@ def test_the_kind_of_a_wrong_answer_can_be_right():
     [
         ("depth_mm / 0.05", "3.8.", True),
         ("depth_mm / 0.05", "4.8.", False),
+        ("force_n / (0.05 * 9.81)", "1.69.", True),
+        ("force_n / 9.81 * 1000 / 4", "21.2.", True),
+        ("force_n / 9.81 * 1000", "84.6.", False),
         ("depth_mm / 0.05", "0.19 mm.", False),
         ("depth_mm * 1000", "190.", False),
         ("depth_mm / 25.4", "0.0075 in.", True),
