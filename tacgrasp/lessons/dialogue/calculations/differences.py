@@ -11,9 +11,9 @@ from __future__ import annotations
 
 import re
 
-from tacgrasp.lessons.dialogue.calculations.asked import AskedWords
+from tacgrasp.lessons.dialogue.calculations.asked import AskedWords, usual
 from tacgrasp.lessons.dialogue.calculations.phrases import ABOVE, BELOW, IS
-from tacgrasp.lessons.dialogue.calculations.quantity_names import is_band
+from tacgrasp.lessons.dialogue.calculations.quantity_names import UNIT, is_band
 from tacgrasp.lessons.dialogue.calculations.terms import Term
 
 _APART = r"(?:away|apart|off)? ?from|off|differs? from|deviates? from"
@@ -195,6 +195,35 @@ def apart(asked: AskedWords) -> Term | None:
         apart = f"abs({a.expression} - {b.factor})"
         return Term(expression=apart, dimension=a.dimension, words="")
     return None
+
+
+_ERROR = re.compile(
+    r"\b(?:(?P<absolute>absolute) (?:error|deviation|difference)|(?:relative |percentage |percent )?"
+    r"(?:error|deviation)|over (?:\w+ )*?(?:or|and) (?:\w+ )*?under)\b"
+)
+
+
+_OF_PLACE_OR_BAND = re.compile(r"\b(?:limit|band|x|y|offset|middle|center|border|edge)\b")
+
+
+def error(asked: AskedWords) -> Term | None:
+    """The difference of a felt quantity from a named value, or that as a percentage of it.
+
+    'The scale says 2.5 N. What is your relative error against it in %?'
+    """
+    found, named = _ERROR.search(asked.words), re.search(rf"#1 (?:{UNIT})\b", asked.words)
+    wanted = asked.term(named[0]) if found and named and len(asked.numbers) == 1 else None
+    if found is None or wanted is None or wanted.dimension not in ("force", "length"):
+        return None
+    if _OF_PLACE_OR_BAND.search(asked.words):
+        return None
+    felt, by = usual(wanted.dimension).expression, wanted.factor
+    if asked.unit == "%":
+        share = f"100 * ({felt} - {by}) / {wanted.divisor}"
+        return Term(expression=share, dimension="fraction", words="")
+    if not found["absolute"]:
+        return None
+    return Term(expression=f"abs({felt} - {by})", dimension=wanted.dimension, words="")
 
 
 _RIGHT_IS_PLUS = re.compile(
