@@ -198,8 +198,7 @@ def apart(asked: AskedWords) -> Term | None:
 
 
 _ERROR = re.compile(
-    r"\b(?:(?P<absolute>absolute) (?:error|deviation|difference)|(?:relative |percentage |percent )?"
-    r"(?:error|deviation)|over (?:\w+ )*?(?:or|and) (?:\w+ )*?under)\b"
+    r"\b(?:(?P<absolute>absolute) (?:error|deviation|difference)|error|deviation|over (?:\w+ )*?(?:or|and) (?:\w+ )*?under)\b"
 )
 
 
