@@ -198,7 +198,8 @@ def apart(asked: AskedWords) -> Term | None:
 
 
 _ERROR = re.compile(
-    r"\b(?:(?P<absolute>absolute) (?:error|deviation|difference)|error|deviation|over (?:\w+ )*?(?:or|and) (?:\w+ )*?under)\b"
+    r"\b(?:(?P<absolute>absolute) (?:error|deviation|difference)|error|deviation|"
+    r"over (?:\w+ )*?(?:or|and) (?:\w+ )*?under)\b"
 )
 
 
