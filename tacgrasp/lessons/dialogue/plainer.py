@@ -81,6 +81,7 @@ _SIGNS = (
     (re.compile(r"(?:(?<=^)|(?<=\s))[-−]\s?(?=[xy]\b)", re.I), "minus "),
     (re.compile(r"\b(limit|ceiling) ?[-−] ?(?=(?:the )?force\b)", re.I), r"\1 minus "),
     (re.compile(r" ?(?:!=|≠) ?"), " is not "),
+    (re.compile(r"(?<=\d) ?[x×] (?=(?:the|its|my|our|that) )"), " times "),
     (re.compile(r"(?<![\w.]) ?\((?:F|δ|d) ?/ ?(?:A|F|δ)\)"), ""),
     (re.compile(r"\b[Ff]_?(?:lim(?:it)?|max)\b"), "the limit"),
     (re.compile(r"\bp_?mean\b"), "mean pressure"),

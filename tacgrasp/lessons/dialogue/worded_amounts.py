@@ -13,8 +13,8 @@ _FIGURES = (
     r"millimet(?:re|er)s|newtons|measurements?|maths?)"
 )
 _IN_WORDS = (
-    rf"(?:(?:skip|forget|drop|spare me|leave out|leave away|never mind|without|no) (?:the |any |"
-    rf"all )?"
+    rf"(?:(?:skip|forget|drop|spare me|leave out|leave away|never mind|without|no) "
+    r"(?:(?:giving|using|saying|telling me) )?(?:the |any |all |an? )?"
     rf"{_FIGURES}(?:,? please)?(?:,? (?:i['’]m|i am|it['’]s|they) [^,:;.?!]*)?|"
     rf"(?:just |only )?(?:in|with|as) (?:(?:plain|simple|everyday|your own) )?(?:words?|language|"
     rf"terms)(?:(?:,? (?:only|alone|please|likewise))|,? (?:not|rather than|instead of|and not) "

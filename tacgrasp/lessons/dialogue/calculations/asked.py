@@ -64,6 +64,7 @@ _CLAIM_TAG = re.compile(
 )
 _IN_UNIT = re.compile(
     rf"(?:(?: (?:measured|expressed|given|said|stated|counting|counted))? (?:in|as)|"
+    r" (?:converted|translated|turned) (?:to|into)|"
     rf"^(?:counting |measured |expressed )?in) (?:plain |whole )?({UNIT})(?= |$)"
 )
 _LAST_UNIT = re.compile(
@@ -77,8 +78,8 @@ _FIRST_UNIT = re.compile(
     r"(?: of (?:force|grip|squeeze|travel|indentation|depth|gel travel|load))? "
     r"(?=(?:left|short|needed|required|missing|lacking|to|remaining|over|above|below|under|"
     r"until|till|before|from|between|in (?:hand|reserve)|up to|still|available|i|we|you|"
-    r"mean|average|nominal|contact|center|spare|away|shy|past|beyond|surely|safely|certainly|held|"
-    r"guaranteed)\b)"
+    r"for me|averaged|on average|mean|average|nominal|contact|center|spare|away|shy|past|beyond|"
+    r"surely|safely|certainly|held|guaranteed)\b)"
 )
 """A unit that begins a question without 'how many': 'mm of travel left'."""
 

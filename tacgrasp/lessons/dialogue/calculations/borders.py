@@ -82,7 +82,7 @@ _OF_DISTANCE = (
     r"leftwards|rightwards|sideways|horizontally|vertically|measuring|"
     r"counting|height|high|find|found|located|down|"
     r"measure|me|line|crow|flies|as|shortest|smallest|minimum|least|clear|keep|keeps|under|below|"
-    r"over|above|for|feel|need|so|free|surface|air|bird|flight|keeping|get|gets|i'll|"
+    r"vertical|horizontal|over|above|for|feel|need|so|free|surface|air|bird|flight|keeping|get|gets|i'll|"
     r"(?:contact|touch|object|thing|patch|item)'s|level|after|am|going|correction|effect)"
 )
 _AGAINST = re.compile(rf"\b(?:{AGAINST}) (?P<by>{_LONG})\b")

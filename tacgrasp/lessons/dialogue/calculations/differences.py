@@ -86,6 +86,12 @@ _APARTS = tuple(
         r"difference|step|jump|climb|way|margin|room) from (?P<a>.+?) (?:up |down )?to (?P<b>.+)",
         r"(?:(?:what|how (?:large|big|much|great|wide|far)) is )?(?:the )?(?P<apart>gap|distance|"
         r"difference|spread) between (?P<a>.+) and (?P<b>.+)",
+        rf"compared (?:with|to) (?P<b>.+?) (?:by )?how (?:much|far) (?:(?P<below>lower|less|"
+        rf"smaller|"
+        rf"weaker)|(?P<above>higher|more|larger|greater|stronger)) {IS} (?P<a>.+)",
+        r"(?:the )?(?P<below>headroom|room|margin|leeway|reserve)(?P<a>)(?: left)? (?:to|up to|"
+        r"until|"
+        r"before) (?P<b>.+)",
         r"(?:(?:what|how (?:large|big|much|great)) is )?(?:the )?(?P<apart>deviation|departure|"
         r"error)"
         r"(?: of (?P<a>.+?))? (?:from|to|against) (?P<b>.+)",

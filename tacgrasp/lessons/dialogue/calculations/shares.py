@@ -64,7 +64,7 @@ _RATIOS = tuple(
         r"(?:indentation |contact )?(?:depth|area|force))",
         r"(?P<a>.+?) (?:is|are) how many times (?:as \w+ as |the size of )?(?P<b>.+)",
         r"how many times (?P<b>the .+?) (?:is|are) (?P<a>.+)",
-        r"how many times (?P<b>(?:its|the|their) .+?) (?:is|are|do|does) (?P<a>(?:we|you|i|it|"
+        r"how many times (?P<b>(?:its|the|their) .+?) (?:is|are|am|do|does) (?P<a>(?:we|you|i|it|"
         r"the (?:gripper|robot|hand)) (?:squeez\w+|press\w*|gripp?\w*|hold\w*|pinch\w*))"
         r"(?: (?:it|on|this|the object))* with",
         r"(?:by (?:what|which) factor|how many times|how many fold) (?:(?:would|must|should|does|"

@@ -99,8 +99,8 @@ _TRAILING = re.compile(
     r"it))?))+$"
 )
 _NUMBER = re.compile(
-    rf"(?:(?:depth|force|area|mass|load|grip|weight|squeeze|clamp) of )?(#\d+)(?: "
-    rf"({UNIT})(?: (?:of )?(?:force|grip|squeeze|deep|depth|indentation|travel|{THING})|"
+    rf"(?:(?:depth|force|area|mass|load|grip|weight|squeeze|clamp) of (?:an? )?)?(#\d+)(?: "
+    rf"({UNIT})(?: (?:of )?(?:mass|load|force|grip|squeeze|deep|depth|indentation|travel|{THING})|"
     rf"(?: \w+)? (?:range|scale|travel|stroke|span))?| force)?"
 )
 _MASS_OF = re.compile(

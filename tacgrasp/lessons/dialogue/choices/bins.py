@@ -80,7 +80,7 @@ _VALUES_FIRST = re.compile(
     rf"counts? as|means?|makes?|gives?|say|(?:is|are) (?:called|named|counted as)|"
     rf"calls?(?: (?:it|that|them))?|goes (?:as|down as|under)) )?{_LABEL}(?= |$)"
 )
-_JOINT = re.compile(r" (?:(?:and|or|but|then|versus|vs) )*")
+_JOINT = re.compile(r"(?: (?:for|to) me)? (?:(?:and|or|but|then|versus|vs) )*")
 _OTHER = re.compile(
     r"\b(?:if|not|never|how|why|limit|band|headroom|margin|offset|center|middle|distance|edge|x|y|"
     r"ratio|squared?|than|minus|plus|times|texture|shape|next)\b|#"
@@ -215,7 +215,9 @@ def _chosen(asked: AskedWords, found: Sequence[re.Match[str]]) -> str | None:
     is_of_limit = _SHARE_OF_LIMIT.search(asked.words) is not None
     if is_of_limit:
         before = _SHARE_OF_LIMIT.sub("", before)
-    if _OTHER.search(re.sub(r"\bif\s*$", "", before)) or _OTHER.search(after):
+    if _OTHER.search(
+        re.sub(r"\bif(?: (?:i|we|you) (?:call|say|count))?\s*$", "", before)
+    ) or _OTHER.search(after):
         return None
     ends = [_ends(asked, match) for match in found]
     named = next((term for each in ends for term in each if term and term.unit), None)

@@ -30,6 +30,7 @@ _WORDS: Mapping[str, tuple[WordScale, str, str]] = {
     "side_y": (scales.SIDE_Y, "palm", "fingertip"),
     "worse_axis": (scales.AXIS, "horizontal", "vertical"),
     "wholeness": (scales.CUT, "cut", "whole"),
+    "position": (scales.CENTER, "centered", "off"),
 }
 """Scales of names of a scene, with their words."""
 
@@ -38,6 +39,7 @@ _FIRST_IF: Mapping[str, str] = {
     "side_y": "y_mm > 0",
     "worse_axis": "abs(x_mm) > abs(y_mm)",
     "wholeness": "wholeness == 'cut'",
+    "position": "position == 'centered'",
 }
 """When the first of them is true."""
 

@@ -27,7 +27,8 @@ _TOUCH = re.compile(
     r"harder|softer|grip\w*|hold\w*|held|how (?:hard|firm\w*|strong\w*))\b"
 )
 _GRIPPED = re.compile(
-    r" (?:(?:that )?(?:you|we) (?:are |have )?(?:gripping|holding|got|hold|grip|have)(?: there|"
+    r" (?:(?:that )?(?:you|we) (?:are |have )?(?:gripping|holding|touching|feeling|pressing|"
+    r"squeezing|got|hold|grip|have)(?: there|"
     r" here)?)\b"
 )
 _THING = re.compile(
@@ -192,6 +193,8 @@ _OF_ANOTHER = re.compile(
     r"(?:coefficient|value|factor|angle|number))\b.*|how slippery .*|(?:what|how (?:much|high|"
     r"large|"
     r"big|strong))(?: is)?(?: the)? (?:\w+ )?friction\b.*)|"
+    r"(?P<sight>what (?:does|do|is) .*\b(?:beyond|outside|past) the (?:edges?|borders?|rim|pad|"
+    r"gel)\b.*)|"
     r"(?P<size>(?:(?:what is the |the )?(?:total|overall|full|whole|entire) (?:length|size|height|"
     r"width)|how (?:long|wide|tall|far|big|many \w+ (?:does|is|do)|much (?:of|does))).*"
     r"\b(?:stick\w*|pok\w+|protrud\w*|hang\w*|extend\w*|jut\w*) (?:out|beyond|past|over|off|"

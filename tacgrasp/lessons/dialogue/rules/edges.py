@@ -59,7 +59,8 @@ _WHICH = re.compile(
     rf"\b(?:which|what) (?:{_EDGE}|sides?)\b|\bwhere is it (?:cut|clipped|cropped)\b"
 )
 _OPEN = re.compile(
-    r"^(?:how|why|which|what|where|when|who|by how)\b|\bhow (?:far|close|much|many)\b"
+    r"^(?:how|why|which|what|where|when|who|by how)\b|\bhow (?:far|close|much|many)\b|"
+    r"\b(?:distance|gap|clearance)\b"
 )
 _MOVES = re.compile(r"\b(?:should|shall|must|move|shift|go|because|if)\b")
 _COMPARED = re.compile(r"\b(?:nearer|closer|farther|further|rather)\b.*\bthan\b")
