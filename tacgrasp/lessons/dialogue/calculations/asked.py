@@ -170,9 +170,8 @@ _OR_ZERO = re.compile(
 _SIGNED = re.compile(
     r"(?:^| )(?:(?:use|give|say|put|with|write) )?(?:an? |it )?(?:minus|negative|plus|positive)"
     r"(?: (?:sign|figure|value|number|one))? (?:if|for|when|meaning|means|already|too) "
-    r"(?:(?! (?:(?:and|but) (?:is|are|does|do|will|would)|(?:has|have|does|is) the) ).)+$|^signed |"
-    r" with "
-    r"(?:the )?sign$| an? (?:minus|negative) "
+    r"(?:(?! (?:(?:and|but) (?:is|are|does|do|will|would)|(?:has|have|does) the) ).)+$|^signed |"
+    r" an? (?:minus|negative) "
     r"(?:figure|value|number|sign)(?: would| will)? means? .+$| with (?:a |the )?sign$"
 )
 _UNSIGNED = re.compile(
