@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import platform
 from collections.abc import Mapping
+from contextlib import AbstractContextManager
 from dataclasses import dataclass, replace
 from importlib.metadata import version
 from pathlib import Path
@@ -104,6 +105,17 @@ class RowRequest:
     def folder(self) -> Path:
         return self.group / self.name
 
+    def training(self) -> AbstractContextManager[PretrainingRun]:
+        """What all its stages of training share."""
+        return pretraining_run(
+            self.group,
+            self.learned,
+            seed=self.seed,
+            command=self.command,
+            threads=self.threads,
+            precision=self.precision,
+        )
+
 
 def make_row(request: RowRequest) -> tuple[Path, list[Result]]:
     """Train, or take up what was trained; measure; write the file.
@@ -117,14 +129,7 @@ def make_row(request: RowRequest) -> tuple[Path, list[Result]]:
     """
     clock = WorkClock(request.folder / "minutes.json")
     clip_clock = WorkClock(request.group / "clip-minutes.json")
-    with pretraining_run(
-        request.group,
-        request.learned,
-        seed=request.seed,
-        command=request.command,
-        threads=request.threads,
-        precision=request.precision,
-    ) as run:
+    with request.training() as run:
         if request.recipe.method == GEOMETRIC_BASELINE:
             trained = TrainedMethod(
                 folder=request.folder,

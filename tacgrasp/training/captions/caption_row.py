@@ -26,7 +26,6 @@ from tacgrasp.lessons.exchanges import caption_exchange
 from tacgrasp.policy_factory import shipped_weights
 from tacgrasp.pretraining.checkpoints import TrainedMethod
 from tacgrasp.pretraining.make_row import RowRequest, row_of, trained_encoder
-from tacgrasp.pretraining.methods import pretraining_run
 from tacgrasp.pretraining.report.row_file import save_row
 from tacgrasp.pretraining.report.rows import SHIPPED
 from tacgrasp.pretraining.report.store import Result
@@ -103,14 +102,7 @@ def _learned(
     encoder = replace(request, name=request.recipe.behind)
     encoder_clock = WorkClock(encoder.folder / "minutes.json")
     clip_clock = WorkClock(request.group / "clip-minutes.json")
-    with pretraining_run(
-        request.group,
-        request.learned,
-        seed=request.seed,
-        command=request.command,
-        threads=request.threads,
-        precision=request.precision,
-    ) as run:
+    with request.training() as run:
         trained = trained_encoder(encoder, run, encoder_clock, clip_clock)
         learning = replace(run, out=request.folder, report=clock.watched(run.report))
         with clock.part("language"):
