@@ -31,6 +31,7 @@ from tacgrasp.lessons.dialogue.choices.own_words import in_its_words
 from tacgrasp.lessons.dialogue.clauses.clauses import clauses_of, judged_as_one, unfelt
 from tacgrasp.lessons.dialogue.clauses.replies import replied
 from tacgrasp.lessons.dialogue.clauses.speech import asked_in_speech
+from tacgrasp.lessons.dialogue.clauses.worded_amounts import in_class_words, without_remark
 from tacgrasp.lessons.dialogue.conditions import check_of
 from tacgrasp.lessons.dialogue.families.catalogue import understand
 from tacgrasp.lessons.dialogue.families.misspelled import respelled
@@ -55,7 +56,6 @@ from tacgrasp.lessons.dialogue.query import (
 from tacgrasp.lessons.dialogue.rules.ruled import ruled_whole
 from tacgrasp.lessons.dialogue.rules.unread import is_beyond
 from tacgrasp.lessons.dialogue.sided_questions import to_named_side
-from tacgrasp.lessons.dialogue.worded_amounts import in_class_words, without_remark
 from tacgrasp.lessons.dialogue.written_units import (
     in_asked_unit,
     numbers_in_units,

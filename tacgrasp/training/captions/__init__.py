@@ -4,5 +4,5 @@ Not here: the percentages of ``tacgrasp eval`` (``tacgrasp.training.evaluate``),
 (``tacgrasp.pretraining.report``).
 
 May import: cltp, policies.llm, tacgrasp, tacgrasp.base, tacgrasp.lessons,
-tacgrasp.lessons.dialogue, tacgrasp.pretraining.report, tacgrasp.training.
+tacgrasp.lessons.dialogue, tacgrasp.pretraining, tacgrasp.pretraining.report, tacgrasp.training.
 """

@@ -85,7 +85,7 @@ def test_no_two_rows_have_one_name_in_tables() -> None:
     for row in ROWS.values():
         changed = {k: v for k, v in dataclasses.asdict(row.recipe).items() if v != usual[k]}
         preset = row.preset or (METHODS[row.method].preset if row.method in METHODS else "")
-        names.append((row.method, preset, row.variant, str(changed), *row.remarks))
+        names.append((row.method, preset, row.variant, row.behind, str(changed), *row.remarks))
     assert len(set(names)) == len(names)
 
 
