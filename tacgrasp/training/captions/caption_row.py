@@ -89,12 +89,9 @@ def make_caption_row(request: RowRequest) -> tuple[Path, list[Result]]:
         )
     results = rated if behind == SHIPPED else rated[:1]
     minutes |= {"measure": clock.minutes("measure")}
-    model = (
-        trained
-        if behind == SHIPPED
-        else replace(trained, variant=f"our small one, {trained.variant}")
-    )
-    row = row_of(request, model, minutes, results)
+    if behind != SHIPPED:
+        trained = replace(trained, variant=f"our small one, {trained.variant}")
+    row = row_of(request, trained, minutes, results)
     path = save_row(request.results, row)
     clock.finish()
     return path, row.results()
