@@ -56,6 +56,9 @@ from tacgrasp.lessons.dialogue.scene import AskedScene, Value
 OFF_TOPIC = "That is not about touch."
 UNKNOWABLE = "I can't feel {}."
 _BAND_TESTS = (IN_BAND, "force_n < band_low_n", "force_n > band_high_n")
+_COMPARED = re.compile(
+    rf"(?P<left>{re.escape(MEAN_PRESSURE)}|(?:min\(|hypot\()?pad_[^<>=]+?) (?:<=|>=|<|>) [\d.]+"
+)
 BY_NOTHING = "I can't say: it would be divided by nothing."
 
 
@@ -105,11 +108,6 @@ def answer(meaning: Meaning, scene: AskedScene) -> Answer:
             return Answer(text=text, kind=AnswerKind.UNKNOWABLE, decidable=False)
         case OffTopic():
             return Answer(text=OFF_TOPIC, kind=AnswerKind.OFF_TOPIC, decidable=False)
-
-
-_COMPARED = re.compile(
-    rf"(?P<left>{re.escape(MEAN_PRESSURE)}|(?:min\(|hypot\()?pad_[^<>=]+?) (?:<=|>=|<|>) [\d.]+"
-)
 
 
 def _lacking(meaning: Meaning, scene: AskedScene) -> Answer | None:
@@ -178,9 +176,8 @@ def _calculated(asked: Calculated, scene: AskedScene) -> Answer:
     is_of_band = any(test in asked.truth for test in _BAND_TESTS)
     shown = [FACT_OF[name] for name in names_of(asked) if name in FACT_OF]
     shown = ["force_band"] if is_of_band and kind is AnswerKind.CHOICE else shown
-    clauses = [fact(name, scene)[1] for name in dict.fromkeys(shown)]
-    if compared := _compared(asked.truth, scene):
-        clauses = [compared]
+    compared = _compared(asked.truth, scene)
+    clauses = [compared] if compared else [fact(each, scene)[1] for each in dict.fromkeys(shown)]
     if kind is AnswerKind.CHOICE:
         text = _chosen(str(value), clauses, Expression(asked.truth).choices)
         return Answer(text=text, kind=kind, value=value)

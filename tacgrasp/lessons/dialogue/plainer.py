@@ -243,8 +243,7 @@ def is_denied_first(question: str) -> bool:
 
 def plainer(question: str) -> str:
     """A question without address, thanks and tag, and without the denial that expects 'yes'."""
-    text = _THOU.sub("thou", " ".join(_CONSTANT.sub(" ", question).split()))
-    text = re.sub(r" (?=[,;:.?!])", "", text) if text != question else text
+    text = _THOU.sub("thou", " ".join(_CONSTANT.sub("", question).split()))
     text = _SQUARED.sub(
         lambda each: (
             f"{'mm' if each['mm'] or each['cubic'] else 'cm'}{'²' if each['two'] else '³'}"

@@ -181,7 +181,7 @@ ROWS: Mapping[str, RowRecipe] = {
     "shipped_llm": RowRecipe(
         about="Tac3D-LLM as shipped, learned from the set full",
         method="cltp",
-        variant=SHIPPED,
+        variant=f"{SHIPPED}, of the set full",
         behind=SHIPPED,
     ),
     "cltp_even_llm": RowRecipe(

@@ -30,14 +30,8 @@ from tacgrasp.pretraining.report.row_file import save_row
 from tacgrasp.pretraining.report.rows import SHIPPED
 from tacgrasp.pretraining.report.store import Result
 from tacgrasp.pretraining.work_clock import WorkClock
-from tacgrasp.training.captions.evaluate import CaptionRun, rate_captions
+from tacgrasp.training.captions.evaluate import CONTACTS, CaptionRun, rate_captions
 from tacgrasp.training.other_encoder import take_other_encoder
-
-CONTACTS = 1000
-"""Contacts whose captions are rated."""
-
-CAPTION_STAGES = STAGES
-"""How long and how fast each stage learns."""
 
 TEXTS = 4
 """Captions of each contact in a step, each asked for in other words: so many texts as the shipped
@@ -69,17 +63,17 @@ def make_caption_row(request: RowRequest) -> tuple[Path, list[Result]]:
         UsageError: The file can't be written.
         TouchError: Data, a checkpoint, an encoder or weights can't be used.
     """
-    behind, clock = request.recipe.behind, WorkClock(request.folder / "minutes.json")
-    weights = shipped_weights() if behind == SHIPPED else request.folder
-    if behind == SHIPPED:
+    recipe, clock = request.recipe, WorkClock(request.folder / "minutes.json")
+    is_shipped = recipe.behind == SHIPPED
+    if is_shipped:
+        trained = TrainedMethod(folder=shipped_weights(), variant=recipe.variant, budget=None)
         minutes: dict[str, float | None] = {}
-        trained = TrainedMethod(folder=weights, variant=f"{SHIPPED}, of the set full", budget=None)
     else:
         trained, minutes = _learned(request, clock)
     with clock.part("measure"):
         rated = rate_captions(
             CaptionRun(
-                weights=weights,
+                weights=shipped_weights() if is_shipped else request.folder,
                 data=request.data,
                 results=request.folder / "results",
                 contacts=min(CONTACTS, request.limit or CONTACTS),
@@ -87,11 +81,8 @@ def make_caption_row(request: RowRequest) -> tuple[Path, list[Result]]:
                 command=request.command,
             )
         )
-    results = rated if behind == SHIPPED else rated[:1]
     minutes |= {"measure": clock.minutes("measure")}
-    if behind != SHIPPED:
-        trained = replace(trained, variant=f"our small one, {trained.variant}")
-    row = row_of(request, trained, minutes, results)
+    row = row_of(request, trained, minutes, rated if is_shipped else rated[:1])
     path = save_row(request.results, row)
     clock.finish()
     return path, row.results()
@@ -111,9 +102,7 @@ def _learned(
             take_other_encoder(trained.folder, learning, HEADS_SCHEDULE.steps)
             lessons = CaptionLessons()
             words = train_words(request.learned, lessons, seed=request.seed)
-            train_llm(
-                learning, words, lessons, CAPTION_STAGES, augmentation=LEARNING_NOISE, questions={}
-            )
+            train_llm(learning, words, lessons, STAGES, augmentation=LEARNING_NOISE, questions={})
     minutes = {"clip": clip_clock.minutes("clip")} if request.recipe.has_towers else {}
     minutes |= {"train": encoder_clock.minutes("train"), "language": clock.minutes("language")}
-    return trained, minutes
+    return replace(trained, variant=f"our small one, {trained.variant}"), minutes

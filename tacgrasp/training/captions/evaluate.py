@@ -63,6 +63,9 @@ from tacgrasp.training.question_evaluation import (
 
 SPLIT = "contact_noisy"
 
+CONTACTS = 1000
+"""Contacts whose captions are rated."""
+
 _LEARNED_DATA = re.compile(r"^\| data checksum \| ([0-9a-f]{8,})", re.M)
 """The line of a model card that names the data of the training."""
 
@@ -86,7 +89,7 @@ class CaptionRun:
     weights: Path
     data: Path
     results: Path
-    contacts: int = 1000
+    contacts: int = CONTACTS
     questions: int = 0
     seed: int = 0
     judge: Judge | None = None

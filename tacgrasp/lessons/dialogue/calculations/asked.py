@@ -106,8 +106,7 @@ _ANSWERED = re.compile(
     r"[a-z]+(?: [a-z]+)?(?: or [a-z]+(?: [a-z]+)?)+$"
 )
 _TAKING_G = re.compile(
-    r" (?:use|take|taking|with|using|at|for) (?:(?:g|gravity) )?(?:as |of |at |is |"
-    r"being )?#\d+(?: (?:m|"
+    r" (?:use|take|taking|with|using) (?:g )?(?:as |of )?#\d+(?: (?:m|"
     r"n) (?:per )?\S+(?: #\d+)?)?(?: (?:for|"
     r"as) g)?$"
 )
@@ -263,6 +262,11 @@ class AskedWords:
         if first is None or first.expression == second.expression:
             return None
         return alike(first, second)
+
+    def only_value(self) -> Term | None:
+        """The one number of the question, with its unit; None where it has none or more."""
+        named = re.search(rf"#1 (?:{UNIT})\b", self.words)
+        return self.term(named[0]) if named and len(self.numbers) == 1 else None
 
     def in_its_unit(self, words: str) -> str:
         """Words whose bare numbers have the unit that the question names beside them."""

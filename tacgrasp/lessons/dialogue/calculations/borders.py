@@ -28,8 +28,9 @@ _SIDES: Mapping[str, tuple[str, str]] = {
     "top": (r"top(?:most)?|upper|palm|palmar|proximal", f"{_Y} - y_mm"),
     "bottom": (r"bottom|lower|fingertip|distal", f"{_Y} + y_mm"),
 }
-_NEAREST = f"min({_X} - abs(x_mm), {_Y} - abs(y_mm))"
-_NEAREST_CORNER = f"hypot({_X} - abs(x_mm), {_Y} - abs(y_mm))"
+_TO_UPRIGHT, _TO_LEVEL = f"{_X} - abs(x_mm)", f"{_Y} - abs(y_mm)"
+"""Distances from the nearer one of two borders."""
+
 _PAD = r"(?:pad|sensor|gel|sensing area|sensing surface|skin)"
 _OF_PAD = rf"(?: (?:of|on|in) (?:(?:the|our|its|this|your) )?{_PAD})?"
 _RIM = r"(?:edges?|borders?|rims?|boundary|boundaries|margins?|ends?|sides?)"
@@ -86,9 +87,7 @@ _OF_DISTANCE = (
     r"(?:contact|touch|object|thing|patch|item)'s|level|after|am|going|correction|effect)"
 )
 _AGAINST = re.compile(rf"\b(?:{AGAINST}) (?P<by>{_LONG})\b")
-_VERB = re.compile(
-    rf"(?:is|are|does|do|has|have|will|would) |(?=(?:{AGAINST.replace('?P<', '?P<_')}) )"
-)
+_VERB = re.compile(rf"(?:is|are|does|do|has|have|will|would) |(?=(?:{AGAINST}) )")
 _PAD_IS = re.compile(
     rf"how (?:(?P<wide>wide|broad)|high|tall) is (?:(?:the|your|this|our) )?{_PAD}"
 )
@@ -112,6 +111,7 @@ _WHICH = re.compile(
     r"\b(?:nearest|closest|nearer|closer)\b|"
     rf"\b(?:nearest|closest)(?: of the (?:four|#\d+))? {_RIM}\b"
 )
+_HOW_FAR = re.compile(r"\bhow (?:far|close|near|much)\b|\b(?:distance|clearance|gap)\b")
 _FOUR = r"left|right|top|bottom|upper|lower|one|or|hand"
 _OF_WHICH = (
     rf"(?:{_OF_DISTANCE}|{_RIM}|nearest|closest|nearer|closer|name|pick|choose|tell|say|{_FOUR}|"
@@ -165,14 +165,11 @@ def nearest_border(asked: AskedWords) -> Calculated | None:
     bottom = "lower" if re.search(r"\blower\b", words) else "bottom"
     return Calculated(
         truth=(
-            f"('left' if x_mm < 0 else 'right') if {_X} - abs(x_mm) < {_Y} - abs(y_mm) else "
+            f"('left' if x_mm < 0 else 'right') if {_TO_UPRIGHT} < {_TO_LEVEL} else "
             f"('{top}' if y_mm > 0 else '{bottom}')"
         ),
         unit=None,
     )
-
-
-_HOW_FAR = re.compile(r"\bhow (?:far|close|near|much)\b|\b(?:distance|clearance|gap)\b")
 
 
 def _length(expression: str) -> Term:
@@ -182,11 +179,12 @@ def _length(expression: str) -> Term:
 def _distance(words: str) -> tuple[str, str]:
     """The distance from the border or corner that words name, and the other words; '' if none."""
     if found := _CORNER.search(words):
-        x, y = (_SIDES[side][1] for side in _corner_sides(found))
+        x = _SIDES["left" if found["left"] else "right"][1]
+        y = _SIDES["top" if found["top"] else "bottom"][1]
         expression = f"hypot({x}, {y})"
     elif found := _ANY_BORDER.search(words):
         is_corner = (found["what"] or found["one"]) == "corner"
-        expression = _NEAREST_CORNER if is_corner else _NEAREST
+        expression = f"{'hypot' if is_corner else 'min'}({_TO_UPRIGHT}, {_TO_LEVEL})"
     elif found := _BORDER.search(words):
         expression = _side_of(found)
     else:
@@ -196,10 +194,6 @@ def _distance(words: str) -> tuple[str, str]:
 
 def _side_of(found: re.Match[str]) -> str:
     return next(value for side, (_, value) in _SIDES.items() if found[side])
-
-
-def _corner_sides(found: re.Match[str]) -> tuple[str, str]:
-    return "left" if found["left"] else "right", "top" if found["top"] else "bottom"
 
 
 def _from_corner(words: str) -> str:

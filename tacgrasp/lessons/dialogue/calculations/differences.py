@@ -13,7 +13,7 @@ import re
 
 from tacgrasp.lessons.dialogue.calculations.asked import AskedWords, usual
 from tacgrasp.lessons.dialogue.calculations.phrases import ABOVE, BELOW, IS
-from tacgrasp.lessons.dialogue.calculations.quantity_names import UNIT, is_band
+from tacgrasp.lessons.dialogue.calculations.quantity_names import is_band
 from tacgrasp.lessons.dialogue.calculations.terms import Term
 
 _APART = r"(?:away|apart|off)? ?from|off|differs? from|deviates? from"
@@ -207,8 +207,6 @@ _ERROR = re.compile(
     r"\b(?:(?P<absolute>absolute) (?:error|deviation|difference)|error|deviation|"
     r"over (?:\w+ )*?(?:or|and) (?:\w+ )*?under)\b"
 )
-
-
 _OF_PLACE_OR_BAND = re.compile(r"\b(?:limit|band|x|y|offset|middle|center|border|edge)\b")
 
 
@@ -217,8 +215,7 @@ def error(asked: AskedWords) -> Term | None:
 
     'The scale says 2.5 N. What is your relative error against it in %?'
     """
-    found, named = _ERROR.search(asked.words), re.search(rf"#1 (?:{UNIT})\b", asked.words)
-    wanted = asked.term(named[0]) if found and named and len(asked.numbers) == 1 else None
+    found, wanted = _ERROR.search(asked.words), asked.only_value()
     if found is None or wanted is None or wanted.dimension not in ("force", "length"):
         return None
     if _OF_PLACE_OR_BAND.search(asked.words):

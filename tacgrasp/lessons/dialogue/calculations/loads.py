@@ -113,6 +113,8 @@ _EQUALS = re.compile(
     r"weights?|"
     r"weigh|weighs|weighing|push|press|balance|make(?:s)? up|correspond|worth|same)\b"
 )
+_OF_DEPTH = re.compile(r"\b(?:depth|deep|dent|indentation|gone in|sunk)\b")
+_OF_FORCE = re.compile(r"\b(?:force|push|press|squeeze|grip)\w*\b")
 
 
 def as_many_as(asked: AskedWords) -> Term | None:
@@ -121,25 +123,16 @@ def as_many_as(asked: AskedWords) -> Term | None:
     'How many 0.1 mm sheets, stacked, equal the depth?'
     """
     words = asked.words
-    if asked.unit or len(asked.numbers) != 1 or not _MANY_THINGS.search(words):
+    if asked.unit or not (_MANY_THINGS.search(words) and _EQUALS.search(words)):
         return None
-    named = re.search(rf"#1 (?:{UNIT})\b", words)
-    each = asked.term(named[0]) if named else None
-    if (
-        each is None
-        or not _EQUALS.search(words)
-        or re.search(r"\b(?:limit|band|area|pad)\b", words)
-    ):
+    each = asked.only_value()
+    if each is None or re.search(r"\b(?:limit|band|area|pad)\b", words):
         return None
-    if each.dimension == "length" and re.search(
-        r"\b(?:depth|deep|dent|indentation|gone in|sunk)\b", words
-    ):
+    if each.dimension == "length" and _OF_DEPTH.search(words):
         return Term(expression=f"depth_mm / {each.divisor}", dimension=PLAIN, words="")
-    is_force = re.search(r"\b(?:force|push|press|squeeze|grip)\w*\b", words)
-    if each.dimension not in ("mass", "force") or not is_force:
+    if each.dimension not in ("mass", "force") or not _OF_FORCE.search(words):
         return None
-    weight = in_newtons(each)
-    return Term(expression=f"force_n / {weight.divisor}", dimension=PLAIN, words="")
+    return Term(expression=f"force_n / {in_newtons(each).divisor}", dimension=PLAIN, words="")
 
 
 def load(asked: AskedWords) -> Term | None:

@@ -204,15 +204,10 @@ def whole_share(asked: AskedWords) -> Term | None:
         return Term(expression=expression, dimension=PLAIN, words="")
     if asked.is_ratio and _COVERED.fullmatch(asked.words):
         return Term(expression="area_percent / 100", dimension=PLAIN, words="")
-    if re.search(r"\bstrain\b", asked.words) and len(asked.numbers) == 1:
-        named = re.search(rf"#1 (?:{UNIT})\b", asked.words)
-        gel = asked.term(named[0]) if named else None
-        if gel is not None and gel.dimension == "length":
-            return Term(
-                expression=f"100 * depth_mm / {gel.divisor}", dimension="fraction", words=""
-            )
     found = _THICK.fullmatch(asked.words)
     thick = asked.term(found["b"]) if found else None
+    if re.search(r"\bstrain\b", asked.words):
+        thick = asked.only_value()
     if thick is None or thick.dimension != "length":
         return None
     share = f"100 * depth_mm / {thick.divisor}"

@@ -122,8 +122,7 @@ _LETTER = re.compile(r"\b[A-E]\b(?!['’])")
 
 _GRADES = re.compile(
     rf"{_MORE_WORDS}|{_LESS_WORDS}|medium|mid|middle|middling|fair|normal|ok|okay|fine|good|bad|"
-    rf"warn|"
-    r"warning|fault|alarm|error|moderate|average|standard|acceptable|pass|fail|safe|unsafe|green|"
+    r"warn|warning|fault|alarm|error|moderate|average|standard|acceptable|pass|fail|safe|unsafe|green|"
     r"amber|yellow|red|poor|"
     r"excellent|short|long|easy|rough|just right"
 )

@@ -178,27 +178,22 @@ def _in_range(setting: str, numbers: tuple[float, ...], asked: str) -> str:
     """Whether a range that somebody aims at is kept or missed; '' of other questions."""
     if _NO_RANGE.search(setting) or len(numbers) != 2 or _ONLY_A_TAG.fullmatch(asked):
         return ""
-    reader = TermReader(numbers)
-    if found := _RANGE.fullmatch(setting):
-        ends = [reader.read(f"{found[end][:2]} {found['unit']}") for end in ("low", "high")]
-    elif found := _AROUND.fullmatch(setting):
-        is_share = found["unit"] == "percent" and found["mid_unit"]
-        middle = reader.read(f"#1 {found['mid_unit'] or found['unit']}")
-        ends = [middle, None if is_share else reader.read(f"#2 {found['unit']}")]
-        share = f"{numbers[1] / 100:g} * {middle.factor}" if is_share and middle else ""
-        ends[1] = replace(middle, expression=share) if middle and share else ends[1]
-    else:
+    if (found := _RANGE.fullmatch(setting) or _AROUND.fullmatch(setting)) is None:
         return ""
-    first, second = ends
+    reader, unit, is_around = TermReader(numbers), found["unit"], found.re is _AROUND
+    first = reader.read(f"#1 {(is_around and found['mid_unit']) or unit}")
+    second = reader.read(f"#2 {unit}")
+    if first and is_around and unit == "percent" and found["mid_unit"]:
+        second = replace(first, expression=f"{numbers[1] / 100:g} * {first.factor}")
     if first is None or second is None or not usual_unit(second.dimension):
         return ""
     is_force = second.dimension == "mass" and _OF_FORCE.search(setting)
-    pairs = [alike(usual("force" if is_force else second.dimension), each) for each in ends if each]
+    felt = usual("force" if is_force else second.dimension)
+    pairs = alike(felt, first), alike(felt, second)
     if pairs[0] is None or pairs[1] is None:
         return ""
-    felt, (one, other) = pairs[0][0].expression, (pair[1].factor for pair in pairs if pair)
-    is_around = _RANGE.fullmatch(setting) is None
-    inside = f"abs({felt} - {one}) <= {other}" if is_around else f"{one} <= {felt} <= {other}"
+    value, one, other = pairs[0][0].expression, pairs[0][1].factor, pairs[1][1].factor
+    inside = f"abs({value} - {one}) <= {other}" if is_around else f"{one} <= {value} <= {other}"
     asked, denied = _undenied(asked)
     is_missed = _BROKEN.fullmatch(asked) is not None
     if not (is_missed or _KEPT.fullmatch(asked) or _REACHED.fullmatch(asked)):

@@ -36,7 +36,7 @@ def dimension_of(truth: Expression) -> str:
     if truth.names == ("area_mm2",) and re.search(r"sqrt|\*\* ?0?\.5", truth.text):
         return "length"
     dimensions = [next(filter(None, map(_dimension_of_name, names)), "") for names in truth.divided]
-    has_gravity = any(map(_is_gravity, truth.numbers))
+    has_gravity = _has_gravity(truth)
     if has_gravity and set(dimensions) == {"force", "mass"}:
         return "ratio"
     if len(set(dimensions)) == 1 and dimensions[0]:
@@ -51,13 +51,9 @@ def dimension_of(truth: Expression) -> str:
 
 def is_count(truth: Expression) -> bool:
     """Whether it may tell how many things of one size are as much: ``depth_mm / 0.05``."""
-    if "/" not in truth.text or len(truth.names) != 1 or not (factor := _factor(truth)):
-        return False
-    dimension = dimension_of(truth)
-    sizes = [unit.size for unit in UNITS.values() if unit.dimension == dimension]
-    if dimension == "mass" and truth.names[0] in _FORCES:
-        sizes = [size * GRAVITY_N_PER_G for size in sizes]
-    return not any(math.isclose(factor * size, 1.0, rel_tol=3e-3) for size in sizes)
+    is_measure = dimension_of(truth) not in ("", "fraction", "ratio")
+    is_share = is_measure and "/" in truth.text and len(truth.names) == 1
+    return is_share and _factor(truth) != 0 and _stated_scale(truth) is None
 
 
 def scale_of(truth: Expression) -> float:
@@ -66,22 +62,36 @@ def scale_of(truth: Expression) -> float:
     1000 of ``depth_mm * 1000``, which is in microns, and 0.001 of ``force_n / 9.81``, which is in
     kilograms; 1 where it may as well be a multiple of the quantity ('twice the depth').
     """
-    dimension = dimension_of(truth)
-    if dimension in ("", "fraction", "ratio"):
+    if dimension_of(truth) in ("", "fraction", "ratio"):
         return 1.0
-    factor = _factor(truth)
-    if not any(map(_is_gravity, truth.numbers)):
-        sizes = [1 / unit.size for unit in UNITS.values() if unit.dimension == dimension]
-        named = (size for size in sizes if math.isclose(factor, size, rel_tol=1e-3))
-        return next(named, truth.power_of_ten)
-    if factor <= 0:
+    if (stated := _stated_scale(truth)) is not None:
+        return stated
+    if not _has_gravity(truth):
+        return truth.power_of_ten
+    in_own = _factor(truth) / _own_factor(truth)
+    if in_own <= 0:
         return 1.0
-    own = 1 / GRAVITY_N_PER_G if dimension == "mass" else GRAVITY_N_PER_G
-    for unit in UNITS.values():
-        if unit.dimension == dimension and math.isclose(factor, own / unit.size, rel_tol=0.003):
-            return 1 / unit.size
-    power = round(math.log10(factor / own))
-    return 10.0**power if math.isclose(factor, own * 10.0**power, rel_tol=0.01) else 1.0
+    power = 10.0 ** round(math.log10(in_own))
+    return power if math.isclose(in_own, power, rel_tol=0.01) else 1.0
+
+
+def _stated_scale(truth: Expression) -> float | None:
+    """How many of the unit of a truth's factor make one of its dimension's own; None of no unit."""
+    dimension, in_own = dimension_of(truth), _factor(truth) / _own_factor(truth)
+    tolerance = 3e-3 if _has_gravity(truth) else 1e-3  # of 9.81 for 9.80665
+    scales = (1 / unit.size for unit in UNITS.values() if unit.dimension == dimension)
+    return next((each for each in scales if math.isclose(in_own, each, rel_tol=tolerance)), None)
+
+
+def _own_factor(truth: Expression) -> float:
+    """What turns a truth's quantity into its dimension's own unit: a force's mass, or weight."""
+    if not _has_gravity(truth):
+        return 1.0
+    return 1 / GRAVITY_N_PER_G if dimension_of(truth) == "mass" else GRAVITY_N_PER_G
+
+
+def _has_gravity(truth: Expression) -> bool:
+    return any(map(_is_gravity, truth.numbers))
 
 
 def _factor(truth: Expression) -> float:

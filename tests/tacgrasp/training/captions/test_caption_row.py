@@ -75,7 +75,7 @@ def test_an_encoder_is_trained_and_a_model_behind_it_is_rated(
     quick = Schedule(steps=1, batch_size=2, learning_rate=1e-3)
     monkeypatch.setattr(caption_row, "HEADS_SCHEDULE", quick)
     monkeypatch.setattr(
-        caption_row, "CAPTION_STAGES", dict.fromkeys(("text", "projector", "joint", "words"), quick)
+        caption_row, "STAGES", dict.fromkeys(("text", "projector", "joint", "words"), quick)
     )
     flags = ("--samples", "64", "--limit", "3")
     made = row("point-mae-llm", *flags)
