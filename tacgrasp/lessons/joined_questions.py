@@ -12,7 +12,7 @@ Not here: parts that only the language model reads (``tacgrasp.lessons.understan
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 
 from tacgrasp.lessons.dialogue.choices.named import either_named
 from tacgrasp.lessons.dialogue.conditions import check_of
@@ -33,6 +33,12 @@ from tacgrasp.lessons.question_form import is_one_clause
 
 MOST_JOINED = 5
 """Most wordings of the grammar that are asked together. Our choice; a model's query has three."""
+
+MOST_APART = 3
+"""Most joined questions that are read by more than the grammar. Our choice."""
+
+PartReader = Callable[[str], Meaning | None]
+"""Reads a question of one clause; None where it can't."""
 
 MOST_JOINTS = 8
 """Most places where a question may be divided. Our choice: three questions with commas of their own
@@ -170,8 +176,18 @@ def is_either(question: str) -> bool:
     return _OR.search(question) is not None and _NOT_EITHER.search(question) is None
 
 
+def asked_apart(question: str, read: PartReader) -> Meaning | None:
+    """The meaning of two or three joined questions, each of which ``read`` reads; else None."""
+    parts = _joined(question, MOST_APART, read)
+    return together(parts) if parts else None
+
+
 def joined(question: str, most: int = MOST_JOINED) -> tuple[Part, ...]:
     """The meanings of at most so many joined wordings of the grammar; none where it lacks one."""
+    return _joined(question, most, read_part)
+
+
+def _joined(question: str, most: int, read: PartReader) -> tuple[Part, ...]:
     question = _COUNTED.sub("", REQUEST.sub("", _AT_LENGTH.sub(" ", question).strip(), count=1))
     question = _HOW_MUCH.sub("", _BOTH_ENDS.sub(_LOW_AND_HIGH, question))
     for pattern, noun in _INDIRECT:
@@ -182,13 +198,13 @@ def joined(question: str, most: int = MOST_JOINED) -> tuple[Part, ...]:
     if len(joints) > MOST_JOINTS:
         return ()
     for joint in joints:
-        first = joinable(read_part(question[: joint.start()]))
+        first = joinable(read(question[: joint.start()]))
         if not first:
             continue
         rest, left = question[joint.end() :], most - len(first)
         for others_asked in (rest, *_same_subject(question, joint, rest)):
-            others = joinable(read_part(others_asked))
-            others = others or (joined(others_asked, left) if left > 1 else ())
+            others = joinable(read(others_asked))
+            others = others or (_joined(others_asked, left, read) if left > 1 else ())
             if 0 < len(others) <= left:
                 return first + others
     return ()

@@ -92,6 +92,30 @@ _CALLED_FALSE = re.compile(
 )
 
 
+_TOPIC = re.compile(
+    r"(?:with (?:regard|respect) to|regarding|as (?:for|regards|to)|concerning|in terms of|"
+    r"when it comes to|speaking of|about|on) (?:the |its |our |this )?(?:\w+ )?"
+    r"(?P<topic>shape|form|texture|surface|depth|force|grip|area|size|position|place|location)"
+    r"(?: of (?:the |this )?(?:contact|touch|object|thing))?[,:] +(?P<rest>.+)",
+    re.I,
+)
+_ABOUT = {
+    "form": "shape", "surface": "texture", "grip": "force", "size": "area", "place": "position",
+    "location": "position",
+}  # fmt: skip
+
+
+def without_topic(question: str) -> tuple[str, str]:
+    """A question without the topic that it begins with, and the name of that; '' where none.
+
+    'Regarding the shape: sphere or cylinder?'
+    """
+    if (found := _TOPIC.match(question)) is None:
+        return question, ""
+    topic = found["topic"].lower()
+    return found["rest"], _ABOUT.get(topic, topic)
+
+
 def is_unlikely(question: str, query: str) -> bool:
     """Whether a question's form speaks against a query.
 
@@ -116,6 +140,11 @@ def is_unlikely(question: str, query: str) -> bool:
     if is_choice:
         wanted.add("choice")
     return not kinds & wanted
+
+
+def begins_as_one(question: str) -> bool:
+    """Whether the first word asks: a verb, 'what', 'how far'."""
+    return bool(_BEGINS_WITH_VERB.match(question) or _ASKS_OPENLY.match(question))
 
 
 def is_one_clause(question: str) -> bool:

@@ -31,6 +31,7 @@ from tacgrasp.lessons.dialogue.choices.own_words import in_its_words
 from tacgrasp.lessons.dialogue.clauses.clauses import clauses_of, judged_as_one, unfelt
 from tacgrasp.lessons.dialogue.clauses.replies import replied
 from tacgrasp.lessons.dialogue.clauses.speech import asked_in_speech
+from tacgrasp.lessons.dialogue.clauses.verdicts import is_doubted_statement
 from tacgrasp.lessons.dialogue.clauses.worded_amounts import in_class_words, without_remark
 from tacgrasp.lessons.dialogue.conditions import check_of
 from tacgrasp.lessons.dialogue.families.catalogue import understand
@@ -53,6 +54,12 @@ from tacgrasp.lessons.dialogue.query import (
     query_of,
     read_query,
 )
+from tacgrasp.lessons.dialogue.rules.follow_ups import (
+    asks_by_how_much,
+    completed,
+    difference_of,
+    with_quantity_of,
+)
 from tacgrasp.lessons.dialogue.rules.ruled import ruled_whole
 from tacgrasp.lessons.dialogue.rules.unread import is_beyond
 from tacgrasp.lessons.dialogue.sided_questions import to_named_side
@@ -63,6 +70,7 @@ from tacgrasp.lessons.dialogue.written_units import (
 )
 from tacgrasp.lessons.divided_questions import divided
 from tacgrasp.lessons.joined_questions import (
+    asked_apart,
     asked_together,
     either_of,
     is_either,
@@ -70,7 +78,14 @@ from tacgrasp.lessons.joined_questions import (
     with_adjective,
 )
 from tacgrasp.lessons.query_classifier import QueryOdds
-from tacgrasp.lessons.question_form import alone_asked, denied_statement, is_one_clause, is_unlikely
+from tacgrasp.lessons.question_form import (
+    alone_asked,
+    begins_as_one,
+    denied_statement,
+    is_one_clause,
+    is_unlikely,
+    without_topic,
+)
 from tacgrasp.lessons.read_question import ReadQuestion
 
 NAMED = 12
@@ -163,7 +178,8 @@ def understood_by_grammar(question: str, before: str = "") -> ReadQuestion | Non
     # 'isn't more than 1 N felt' would be read as 'is not more than 1 N felt'
     if is_denied and (affirmed := understood_by_grammar(plain, before)):
         return affirmed
-    meaning = with_adjective(question) or either_of(question)
+    meaning = judged_as_one(question) if is_doubted_statement(question) else None
+    meaning = meaning or with_adjective(question) or either_of(question)
     meaning = meaning or understand(question, before=before)
     if not before and isinstance(meaning, Unknowable):
         meaning = ruled_whole(plain) or meaning  # 'is it a square' is no question for a name
@@ -187,9 +203,11 @@ def understood_by_grammar(question: str, before: str = "") -> ReadQuestion | Non
     if not query:
         return None
     read = read_query(query, asked.numbers)
-    sure = CALCULATED_CONFIDENCE if isinstance(read, Calculated) else 1.0
     if read is None:
         return None
+    parts = read.parts if isinstance(read, Several) else (read,)
+    is_calculated = any(isinstance(part, Calculated) for part in parts)
+    sure = CALCULATED_CONFIDENCE if is_calculated else 1.0
     return _in_its_words(question, _as_one(question, ReadQuestion(query, read, sure)))
 
 
@@ -204,7 +222,13 @@ def _composed(question: str) -> Meaning | None:
         or ruled_whole(question)
         or calculated(question)
         or clauses_of(question, read_part)
+        or asked_apart(question, _read_alone)
     )
+
+
+def _read_alone(question: str) -> Meaning | None:
+    """What a question that begins as one means: by the grammar, a rule, or as a calculation."""
+    return (read_part(question) or calculated(question)) if begins_as_one(question) else None
 
 
 def _by_other_words(question: str, before: str) -> ReadQuestion | None:
@@ -214,6 +238,9 @@ def _by_other_words(question: str, before: str) -> ReadQuestion | None:
             return understood_by_grammar(plain, before)
     if before:
         return None
+    alone, topic = without_topic(question)
+    if topic and (read := understood_by_grammar(alone)) and topic in read.query:
+        return read
     told = (understood_by_grammar(each) for each in asked_in_speech(question))
     if told_alone := next((read for read in told if read is not None), None):
         return told_alone
@@ -348,6 +375,8 @@ def understood_in_turn(writer: QueryWriter, question: str, before: str) -> ReadQ
     """
     if not before:
         return understood(writer, question)
+    if (whole := _completed(question, before)) is not None:
+        return whole
     if _FOLLOWS.match(question):
         return understood(writer, question, before)
     known = understood_by_grammar(question) or understood_by_grammar(question, before)
@@ -361,3 +390,16 @@ def understood_in_turn(writer: QueryWriter, question: str, before: str) -> ReadQ
     behind = read_by_model(writer, question, before)
     read = [each for each in (alone, behind) if each is not None]
     return _doubted(question, max(read, key=lambda each: each.confidence, default=None))
+
+
+def _completed(question: str, before: str) -> ReadQuestion | None:
+    """A follow-up that takes its other side, its words or its unit from the question before it."""
+    if text := completed(question, before):
+        return understood_by_grammar(text)
+    if (earlier := understood_by_grammar(before)) is None:
+        return None
+    if asks_by_how_much(question):
+        apart = difference_of(earlier.meaning)
+        return ReadQuestion(query_of(apart), apart, CALCULATED_CONFIDENCE) if apart else None
+    named = with_quantity_of(question, earlier.meaning)
+    return understood_by_grammar(named) if named else None

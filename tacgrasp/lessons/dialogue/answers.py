@@ -48,6 +48,7 @@ from tacgrasp.lessons.dialogue.quantities import (
     MEAN_PRESSURE,
     QUANTITIES,
     amount_text,
+    can_be_in,
     number_in,
     value_text,
 )
@@ -57,8 +58,12 @@ OFF_TOPIC = "That is not about touch."
 UNKNOWABLE = "I can't feel {}."
 _BAND_TESTS = (IN_BAND, "force_n < band_low_n", "force_n > band_high_n")
 _COMPARED = re.compile(
-    rf"(?P<left>{re.escape(MEAN_PRESSURE)}|(?:min\(|hypot\()?pad_[^<>=]+?) (?:<=|>=|<|>) [\d.]+"
+    rf"(?P<left>{re.escape(MEAN_PRESSURE)}|area_mm2|(?:min\(|hypot\()?pad_[^<>=]+?) (?:<=|>=|<|"
+    rf">) [\d.]+"
 )
+_TESTED = re.compile(r"(?P<name>\w+) .*\d (?P<unit>\S+)")
+"""A quantity that a check compares with a number: 'force > 100 g'."""
+
 BY_NOTHING = "I can't say: it would be divided by nothing."
 
 
@@ -156,8 +161,16 @@ def _check(asked: Check, scene: AskedScene) -> Answer:
 
 
 def _shown(asked: Check, scene: AskedScene) -> str:
-    """What a yes or no is based on: 'it needs 0.62 N and the force is 0.83 N'."""
-    clauses = [fact(name, scene)[1] for name in asked.shows]
+    """What a yes or no is based on: 'it needs 0.62 N and the force is 0.83 N'.
+
+    What is compared with a number is told in the unit of that.
+    """
+    tested = _TESTED.fullmatch(asked.test)
+    units = {tested["name"]: tested["unit"]} if tested else {}
+    clauses = [
+        fact(name, scene, unit if can_be_in(name, unit := units.get(name, "")) else "")[1]
+        for name in asked.shows
+    ]
     if asked.needed_n:
         needed = float(Expression(asked.needed_n).evaluate(scene.values()).value or 0.0)
         clauses.insert(0, f"it needs {needed:.2f} N")
@@ -186,13 +199,15 @@ def _calculated(asked: Calculated, scene: AskedScene) -> Answer:
 
 
 def _compared(truth: str, scene: AskedScene) -> str:
-    """A pressure, or a distance from the pad's border, that is compared with a number; else ''."""
+    """A pressure, area or distance from the border that is compared with a number; else ''."""
     found = _COMPARED.fullmatch(truth)
     if found is None:
         return ""
     value = Expression(found["left"]).evaluate(scene.values()).value
     if not isinstance(value, float):
         return ""
+    if found["left"] == "area_mm2":
+        return fact("area", scene, "mm²")[1]
     if found["left"] == MEAN_PRESSURE:
         return f"the mean pressure is {value_text(value, 'kPa')}"
     return f"the distance is {value_text(value, 'mm')}"

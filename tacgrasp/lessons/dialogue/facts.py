@@ -85,11 +85,14 @@ _WORDS: Mapping[str, Mapping[str, str]] = {
 }
 
 
-def fact(name: str, scene: AskedScene) -> tuple[str, str]:
-    """A fact of ``FACTS`` in short, and as a clause: '0.19 mm', 'the depth is 0.19 mm'."""
+def fact(name: str, scene: AskedScene, unit: str = "") -> tuple[str, str]:
+    """A fact of ``FACTS`` in short, and as a clause: '0.19 mm', 'the depth is 0.19 mm'.
+
+    A quantity is told in ``unit``; '' for its own.
+    """
     value = Expression(FACTS[name]).evaluate(scene.values()).value
     if name in QUANTITIES and isinstance(value, float):
-        text = amount_text(name, value, QUANTITIES[name].unit, scene)
+        text = amount_text(name, value, unit or QUANTITIES[name].unit, scene)
         short = f"{name} {text}" if name in "xy" else text
         return short, f"{QUANTITIES[name].name} is {text}"
     word = str(value)

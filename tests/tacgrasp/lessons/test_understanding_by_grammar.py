@@ -5,6 +5,7 @@ from dataclasses import replace
 import pytest
 
 from tacgrasp.lessons.answering import answered
+from tacgrasp.lessons.dialogue.rules.follow_ups import difference_of
 from tacgrasp.lessons.understanding import understood, understood_in_turn
 from tests.fakes.question_scenes import HELD
 
@@ -110,6 +111,58 @@ class Refusing:
             "Is it in one of the corners of the pad?",
             "calculate position in ('top-left', 'top-right', 'bottom-left', 'bottom-right').",
         ),
+        (
+            "Which corner of the pad is it closest to?",
+            "calculate ('top-left' if y_mm > 0 else 'bottom-left') if x_mm < 0 else "
+            "('top-right' if y_mm > 0 else 'bottom-right').",
+        ),
+        (
+            "How many newtons may I add before leaving the band?",
+            "calculate band_high_n - force_n in N.",
+        ),
+        (
+            "How far can I loosen before the force drops below the band?",
+            "calculate force_n - band_low_n in N.",
+        ),
+        (
+            "Does it stay 2 mm clear of the top edge?",
+            "calculate pad_height_mm / 2 - y_mm >= 2.",
+        ),
+        (
+            "What is the depth minus 0.2 mm, and is it 3 mm clear of the left edge?",
+            "amount depth - #1 mm; calculate pad_width_mm / 2 + x_mm >= 3.",
+        ),
+        (
+            "Into which range does the force fall: 0-2 N, 2-5 N or over 5 N?",
+            "calculate '0-2 N' if 0 <= force_n <= 2 else '2-5 N' if 2 <= force_n <= 5 "
+            "else 'over 5 N' if force_n > 5 else 'neither'.",
+        ),
+        (
+            "Is the depth under 0.3 mm, between 0.3 and 0.6 mm, or over 0.6 mm?",
+            "calculate 'under 0.3 mm' if depth_mm < 0.3 else 'from 0.3 to 0.6 mm' "
+            "if 0.3 <= depth_mm <= 0.6 else 'over 0.6 mm'.",
+        ),
+        (
+            "Is the contact patch between 20 and 60 mm² in size?",
+            "calculate min(20, 60) <= area_mm2 <= max(20, 60).",
+        ),
+        (
+            "Is the force nearer to the upper end of the band than to the lower end?",
+            "calculate abs(force_n - band_high_n) < abs(force_n - band_low_n).",
+        ),
+        (
+            "Does the force clear the bottom of the band by more than 300 mN?",
+            "calculate force_n - band_low_n > 0.3.",
+        ),
+        (
+            "Is neither the band nor the limit exceeded by the present force?",
+            "calculate not (force_n > band_high_n) and not (force_n > limit_n).",
+        ),
+        (
+            'With regard to shape, should I log "cylinder" or "other"?',
+            "calculate 'cylinder' if shape == 'cylinder' else 'other'.",
+        ),
+        ("It's a sphere. Am I wrong?", "calculate not (shape == 'sphere')."),
     ],
 )
 def test_what_calculates_is_read_with_some_doubt(question, query):
@@ -480,3 +533,34 @@ def test_what_is_compared_is_told(question, text):
     read = understood(Refusing(), question)
     assert read is not None
     assert answered(read, HELD).answer.text == text
+
+
+@pytest.mark.parametrize(
+    ("question", "before", "query"),
+    [
+        ("By how much?", "Is it above the limit?", "calculate abs(force_n - (limit_n)) in N."),
+        (
+            "by how much",
+            "Is the force within the band?",
+            "calculate max(0, band_low_n - force_n, force_n - band_high_n) in N.",
+        ),
+        ("How much less?", "Is it deeper than 0.2 mm?", "calculate abs(depth_mm - (0.2)) in mm."),
+        (
+            "And from the left edge?",
+            "How far is it from the middle?",
+            "calculate pad_width_mm / 2 + x_mm in mm.",
+        ),
+        ("And below the limit?", "Is the force above 1 N?", "check force under."),
+        ("And in the top half?", "Is it in the left half?", "check top."),
+        ("Is that more than 50?", "How deep is it in microns?", "check depth > #1 µm."),
+        ("Is it more than 100?", "What is the force in grams?", "check force > #1 g."),
+    ],
+)
+def test_a_follow_up_is_completed_by_the_question_before_it(question, before, query):
+    assert understood_in_turn(Refusing(), question, before).query == query
+
+
+def test_what_compares_no_numbers_has_no_difference():
+    meaning = understood(Refusing(), "Is it a sphere?").meaning
+    assert difference_of(meaning) is None
+    assert difference_of(understood(Refusing(), "How deep is it?").meaning) is None

@@ -16,6 +16,7 @@ from tacgrasp.lessons.dialogue.calculations.asked import AskedWords, usual, usua
 from tacgrasp.lessons.dialogue.calculations.borders import to_border
 from tacgrasp.lessons.dialogue.calculations.differences import (
     apart,
+    before_leaving,
     error,
     from_point,
     into_band,
@@ -81,7 +82,8 @@ def calculated_amount(asked: AskedWords) -> Calculated | None:
     readers: tuple[Callable[[AskedWords], Term | None], ...] = (
         to_border, pressure, stiffness, circle, free_area, volume, as_many_as, on_scale,
         safety_factor, needed, load, unused, share, ratio, missing, signed_offset, error, apart,
-        taken, from_point, whole_share, into_band, _counted, _weight, _stood_at, _alone,
+        taken, from_point, whole_share, into_band, before_leaving, _counted, _weight, _stood_at,
+        _alone,
     )  # fmt: skip
     for reader in readers:
         if (term := reader(asked)) and (amount := amount_of(term, asked)):

@@ -170,6 +170,7 @@ _SIGNED = re.compile(
     r"(?:^| )(?:(?:use|give|say|put|with|write) )?(?:an? |it )?(?:minus|negative|plus|positive)"
     r"(?: (?:sign|figure|value|number|one))? (?:if|for|when|meaning|means|already|too) "
     r"(?:(?! (?:(?:and|but) (?:is|are|does|do|will|would)|(?:has|have|does) the) ).)+$|^signed |"
+    r" signed(?= in \S+(?: \S+)?$|$)|"
     r" an? (?:minus|negative) "
     r"(?:figure|value|number|sign)(?: would| will)? means? .+$| with (?:a |the )?sign$"
 )

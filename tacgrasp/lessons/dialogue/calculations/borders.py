@@ -2,9 +2,11 @@
 
     How far is it from the left edge?                   pad_width_mm / 2 + x_mm
     Do less than 3 mm remain to the right-hand border?  pad_width_mm / 2 - x_mm < 3
+    Is it 3 mm clear of every border?                   min(...) >= 3
     How far is it to the nearest border?                min(pad_width_mm / 2 - abs(x_mm), ...)
     With the origin in the lower left corner, what is x?
     Which border is nearest?                            'left' if ... else 'right' ...
+    Which corner is nearest?                            'top-left' if ... else ...
     How wide is the pad?                                pad_width_mm
 
 Not here: whether a border cuts or is near (``tacgrasp.lessons.dialogue.rules.edges``).
@@ -82,11 +84,12 @@ _OF_DISTANCE = (
     r"downwards|leftward|rightward|"
     r"leftwards|rightwards|sideways|horizontally|vertically|measuring|"
     r"counting|height|high|find|found|located|down|"
-    r"measure|me|line|crow|flies|as|shortest|smallest|minimum|least|clear|keep|keeps|under|below|"
+    r"measure|me|line|crow|flies|as|shortest|smallest|minimum|least|clear|keep|keeps|stay|stays|under|below|"
     r"vertical|horizontal|over|above|for|feel|need|so|free|surface|air|bird|flight|keeping|get|gets|i'll|"
     r"(?:contact|touch|object|thing|patch|item)'s|level|after|am|going|correction|effect)"
 )
 _AGAINST = re.compile(rf"\b(?:{AGAINST}) (?P<by>{_LONG})\b")
+_CLEAR = re.compile(rf"(?<= )(?P<by>{_LONG}) (?=(?:clear|away|inward|inside|free)\b)")
 _VERB = re.compile(rf"(?:is|are|does|do|has|have|will|would) |(?=(?:{AGAINST}) )")
 _PAD_IS = re.compile(
     rf"how (?:(?P<wide>wide|broad)|high|tall) is (?:(?:the|your|this|our) )?{_PAD}"
@@ -106,15 +109,16 @@ _BESIDE = re.compile(
     r"(?P<right>right)|(?P<top>above)|(?P<bottom>below|beneath|under))(?: side)?(?: of)? "
     r"(?P<rest>.+)"
 )
+_RIM_OR_CORNER = rf"(?:{_RIM}|corners?)"
 _WHICH = re.compile(
-    rf"\b(?:which|what|name|pick|choose|the|of)\b.*?\b(?:{_RIM})\b.*"
+    rf"\b(?:which|what|name|pick|choose|the|of)\b.*?\b(?:{_RIM_OR_CORNER})\b.*"
     r"\b(?:nearest|closest|nearer|closer)\b|"
-    rf"\b(?:nearest|closest)(?: of the (?:four|#\d+))? {_RIM}\b"
+    rf"\b(?:nearest|closest)(?: of the (?:four|#\d+))? {_RIM_OR_CORNER}\b"
 )
 _HOW_FAR = re.compile(r"\bhow (?:far|close|near|much)\b|\b(?:distance|clearance|gap)\b")
 _FOUR = r"left|right|top|bottom|upper|lower|one|or|hand"
 _OF_WHICH = (
-    rf"(?:{_OF_DISTANCE}|{_RIM}|nearest|closest|nearer|closer|name|pick|choose|tell|say|{_FOUR}|"
+    rf"(?:{_OF_DISTANCE}|{_RIM_OR_CORNER}|nearest|closest|nearer|closer|name|pick|choose|tell|say|{_FOUR}|"
     r"four|#\d+|comes?|lean|leans|towards?|most)"
 )
 
@@ -139,7 +143,8 @@ def to_border(asked: AskedWords) -> Term | None:
 def border_check(asked: AskedWords) -> Calculated | None:
     """Whether that distance is more or less than so much."""
     words = _PAD_SIZE.sub("", asked.words)
-    against = _AGAINST.search(words)
+    compared = _AGAINST.search(words)
+    against = compared or _CLEAR.search(words)
     if against is None or not (begin := _VERB.match(words)):
         return None
     by = asked.term(against["by"])
@@ -148,21 +153,25 @@ def border_check(asked: AskedWords) -> Calculated | None:
         return None
     if not is_made_of(rest, _OF_DISTANCE):
         return None
-    return Calculated(truth=f"{expression} {sign_of(against)} {by.factor}", unit=None)
+    sign = sign_of(compared) if compared else ">="
+    return Calculated(truth=f"{expression} {sign} {by.factor}", unit=None)
 
 
 def nearest_border(asked: AskedWords) -> Calculated | None:
-    """Which of the four borders is nearest, in the question's own words."""
+    """Which of the four borders, or corners, is nearest, in the question's own words."""
     words = asked.words
     if asked.unit or _HOW_FAR.search(words) or not _WHICH.search(words):
         return None
-    if not is_made_of(words, _OF_WHICH) or re.search(r"\bcorner", words):
+    if not is_made_of(words, _OF_WHICH):
         return None
     named = {side for side, (said, _) in _SIDES.items() if re.search(rf"\b(?:{said})\b", words)}
     if named and len(named) < len(_SIDES):
         return None
     top = "upper" if re.search(r"\bupper\b", words) else "top"
     bottom = "lower" if re.search(r"\blower\b", words) else "bottom"
+    if re.search(r"\bcorner", words):
+        left, right = (f"('{top}-{x}' if y_mm > 0 else '{bottom}-{x}')" for x in ("left", "right"))
+        return Calculated(truth=f"{left} if x_mm < 0 else {right}", unit=None)
     return Calculated(
         truth=(
             f"('left' if x_mm < 0 else 'right') if {_TO_UPRIGHT} < {_TO_LEVEL} else "

@@ -67,7 +67,8 @@ _PUSHED = re.compile(
 )
 _AMOUNT = r"(?:(?P<more>more than|over)|(?P<fewer>less than|under)|at least)"
 _SIDES = (
-    r"(?:(?P<up>exceeds?|above|over|beyond|(?:greater|larger|higher|more|heavier|deeper) than)|"
+    r"(?:(?P<up>exceeds?|clears?|above|over|beyond|(?:greater|larger|higher|more|heavier|"
+    r"deeper) than)|"
     r"(?:below|under|beneath|shy of|short of|(?:less|smaller|lower|lighter) than))"
 )
 _BY = re.compile(
@@ -129,6 +130,10 @@ _NEITHER = re.compile(
     r"(?:it (?:true|correct|right|the case|so) that )?(?:(?P<s>.+?) (?:is )?)?neither (?P<a>.+) "
     r"nor (?P<b>.+)"
 )
+_NEITHER_PASSED = re.compile(
+    r"neither (.+) nor (.+?) (?:exceeded|surpassed|passed|crossed|broken|violated|overstepped)"
+    r"(?: by (?:the )?(?:\w+ )?(?:force|grip|squeeze))?"
+)
 _RESERVE = re.compile(
     r"(?:we|you|i|there|it) (?:(?:still|have|got|is) )*(?:(?P<more>more|over)|"
     r"(?P<less>less|under)) than (?P<b>.+?) (?:in reserve|left|unused|to spare|in hand|headroom|"
@@ -186,6 +191,7 @@ def calculated_check(asked: AskedWords) -> Calculated | None:
         return None
     words = asked.in_its_unit(words)
     words = re.sub(r"^(it|we|they) both ", r"\1 ", words.strip())
+    words = _NEITHER_PASSED.sub(r"neither force exceeds \1 nor force exceeds \2", words)
     if found := _NEITHER.fullmatch(words):
         parts = [condition_of(asked, f"{found['s'] or ''} {found[n]}".strip()) for n in "ab"]
         told = [f"not ({part})" for part in parts if part]
@@ -242,9 +248,9 @@ def condition_of(asked: AskedWords, words: str) -> str | None:
             assert near is not None
             return f"abs({pair[0].expression} - {pair[1].factor}) <= {near[1].factor}"
     if found := _BETWEEN.fullmatch(words):
-        unit = re.search(rf" (?:{UNIT})$", found["c"])
+        unit = re.match(rf"#\d+( (?:{UNIT}))\b", found["c"])
         least = (
-            f"{found['b']}{unit[0]}" if unit and re.fullmatch(r"#\d+", found["b"]) else found["b"]
+            f"{found['b']}{unit[1]}" if unit and re.fullmatch(r"#\d+", found["b"]) else found["b"]
         )
         low, high = (_pair(asked, found["a"], end) for end in (least, found["c"]))
         if low and high:
@@ -310,6 +316,8 @@ def shared_noun(asked: AskedWords, first: str, second: str) -> tuple[str, str]:
         return f"{first} {noun[1]}", second
     if asked.term(first) is None and (end := re.search(r" (?:of|in) .+$", second)):
         return f"{first}{end[0]}", second
+    if asked.term(second) is None and (end := re.search(r" (?:of|in) .+$", first)):
+        return first, f"{second}{end[0]}"
     return first, second
 
 

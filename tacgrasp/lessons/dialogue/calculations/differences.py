@@ -1,6 +1,7 @@
 """Questions for a sum of terms, or for how far they are apart.
 
     How much is missing until it reaches 1 N?   1 - force_n
+    How much may I add before I leave the band? band_high_n - force_n
     Subtract the mass from 50 g.                50 - mass_g
     How far is it from x = 1 mm, y = 2 mm?      hypot(x_mm - 1, y_mm - 2)
 
@@ -132,6 +133,22 @@ _INTO_BAND = re.compile(
     r"(?:how much|what is the (?:smallest|least)).*\b(?:change|correct(?:ion)?|"
     r"adjust(?:ment)?)\b.* (?:in|inside|within|into|to) (?:the |our )?(?P<band>.+?)(?: if .*)?"
 )
+_LEAVING = re.compile(
+    r"how (?:much|far)(?: (?:more|further|less|harder|looser|tighter|extra|force|grip|squeeze))* "
+    r"(?:can|could|may|might|would) (?:i|we|you|it|the \w+) (?:still )?(?:be )?(?:(?P<less>lose|"
+    r"loosen(?:ed)?|lower(?:ed)?|ease|relax(?:ed)?|reduced?|cut|drop|fall|sink|slacken|release|"
+    r"give|"
+    r"take|let)|add|squeeze|increased?|raised?|rise|grow|tighten(?:ed)?|press|grip|push|go|put|"
+    r"gain)"
+    r"(?: (?:off|up|on|back|away|harder|more|less|further|down|out|the (?:force|grip|squeeze)|"
+    r"force))* "
+    r"(?:before|until|till|without) (?:(?:i|we|you|it|the (?:force|grip)) )?(?:am |are |is |"
+    r"being )?"
+    r"(?:leav(?:e|es|ing)|exceed(?:s|ing)?|overshoot(?:s|ing)?|outside(?: of)?|beyond|"
+    r"(?:drop|fall|slip|get|go|rise|com|be)(?:s|ping|ing|ting|e|es)? (?:out of|out|above|below|"
+    r"under|"
+    r"over|beyond|outside|past)) (?:the |our )?(?P<band>.+)"
+)
 _POINT = re.compile(
     r"(?:what is |how (?:much|far) is )?(?:the )?(?:distance (?:between|from|of) )?(?:the "
     r")?(?:contact|it) (?:and|to|from|away from) (?:the )?(?:(?:point|spot|place) )?(?:at )?x "
@@ -179,6 +196,15 @@ def missing(asked: AskedWords) -> Term | None:
         if found and (pair := asked.pair(named, found["b"])):
             return _difference(pair[1], pair[0])
     return None
+
+
+def before_leaving(asked: AskedWords) -> Term | None:
+    """What may be added, or taken off, before the force leaves the band."""
+    found = _LEAVING.fullmatch(asked.words)
+    if found is None or not is_band(found["band"]):
+        return None
+    room = "force_n - band_low_n" if found["less"] else "band_high_n - force_n"
+    return Term(expression=room, dimension="force", words="", is_sum=True)
 
 
 def apart(asked: AskedWords) -> Term | None:

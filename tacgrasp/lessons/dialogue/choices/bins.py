@@ -3,6 +3,7 @@
     Call it light below 1 N, medium up to 3 N, else heavy.   'light' if force_n < 1 else ...
     If anything under 2 N is gentle and the rest firm, which one is it?
     With 0.8 mm as the dividing line, is it deep or shallow?
+    Into which range does the force fall: 0-2 N, 2-5 N or over 5 N?
 
 A value that none of the words stands for is neither.
 
@@ -79,6 +80,11 @@ _VALUES_FIRST = re.compile(
     rf"(?:(?:and|then|but) )?{_VALUES} (?:(?:(?:it|that|this|they|we|i) )?(?:is|are|be|being|as|"
     rf"counts? as|means?|makes?|gives?|say|(?:is|are) (?:called|named|counted as)|"
     rf"calls?(?: (?:it|that|them))?|goes (?:as|down as|under)) )?{_LABEL}(?= |$)"
+)
+_VALUES_ALONE = re.compile(rf"{_VALUES}(?= |$)")
+_ASKS_RANGE = re.compile(
+    r"\b(?:which|what) (?:of (?:the|these) )?(?:\w+ )?(?:range|bin|bracket|interval|class|group|"
+    r"category|bucket|slot)s?\b"
 )
 _JOINT = re.compile(r"(?: (?:for|to) me)? (?:(?:and|or|but|then|versus|vs) )*")
 _OTHER = re.compile(
@@ -183,7 +189,20 @@ def binned(question: str, asked: AskedWords) -> str | None:
     row = max(rows, key=len, default=())
     listed = {word for each in _LISTED.findall(asked.words) for word in each if word}
     labelled = all(match["label"] in listed or _is_label(question, match) for match in row)
-    return _chosen(asked, row) if len(row) > 1 and labelled else None
+    told = _chosen(asked, row) if len(row) > 1 and labelled else None
+    return told or _range(asked, question)
+
+
+def _range(asked: AskedWords, question: str) -> str | None:
+    """The one of several ranges that a question names, in its words; None of other questions."""
+    starts = [match.start() for match in re.finditer(r"(?<![^ ])(?=[a-z#])", asked.words)]
+    rows = (_row(asked.words, _VALUES_ALONE, start, _VALUES_ALONE) for start in reversed(starts))
+    row = max(rows, key=len, default=())
+    if len(row) < (2 if _ASKS_RANGE.search(asked.words) else 3) or any(m["rest"] for m in row):
+        return None
+    to = "-" if re.search(r"\d ?[-–] ?\d", question) else " to "
+    said = [asked.said(match[0]).replace("zero", "0") for match in row]
+    return _chosen(asked, row, [re.sub(r"(?<=\d) (?=\d)", to, words) for words in said])
 
 
 def _is_label(question: str, match: re.Match[str]) -> bool:
@@ -198,10 +217,15 @@ def _is_label(question: str, match: re.Match[str]) -> bool:
     return _MEANS.search(match[0]) is not None and not re.fullmatch(UNIT, label)
 
 
-def _row(words: str, pattern: re.Pattern[str], start: int) -> Sequence[re.Match[str]]:
+def _row(
+    words: str,
+    pattern: re.Pattern[str],
+    start: int,
+    others: re.Pattern[str] = _VALUES_FIRST,
+) -> Sequence[re.Match[str]]:
     """Bins that stand one behind the other."""
     found: list[re.Match[str]] = []
-    while match := pattern.match(words, start) or (found and _VALUES_FIRST.match(words, start)):
+    while match := pattern.match(words, start) or (found and others.match(words, start)):
         found.append(match)
         if (joint := _JOINT.match(words, match.end())) is None:
             break
@@ -209,7 +233,11 @@ def _row(words: str, pattern: re.Pattern[str], start: int) -> Sequence[re.Match[
     return found
 
 
-def _chosen(asked: AskedWords, found: Sequence[re.Match[str]]) -> str | None:
+def _chosen(
+    asked: AskedWords, found: Sequence[re.Match[str]], labels: Sequence[str] = ()
+) -> str | None:
+    """The word of the bin that holds the value; ``labels`` are the words of bins without."""
+    labels = labels or [match["label"] for match in found]
     before, after = asked.words[: found[0].start()], asked.words[found[-1].end() :]
     is_of_limit = _SHARE_OF_LIMIT.search(asked.words) is not None
     if is_of_limit:
@@ -227,7 +255,10 @@ def _chosen(asked: AskedWords, found: Sequence[re.Match[str]]) -> str | None:
         return None
     if any(end.dimension not in (named.dimension, UNSAID) for each in ends for end in each if end):
         return None
-    bins = [_bin(match, each, named, subject) for match, each in zip(found, ends, strict=True)]
+    bins = [
+        _bin(match, label, each, named, subject)
+        for match, label, each in zip(found, labels, ends, strict=True)
+    ]
     sized = [each for each in bins if each and (each.low is not None or each.high is not None)]
     others = [each.label for each in bins if each and each not in sized]
     if None in bins or not sized or len(others) > 1:
@@ -250,21 +281,25 @@ def _ends(asked: AskedWords, match: re.Match[str]) -> tuple[Term | None, Term | 
 
 
 def _bin(
-    match: re.Match[str], ends: tuple[Term | None, Term | None], named: Term, subject: Term
+    match: re.Match[str],
+    label: str,
+    ends: tuple[Term | None, Term | None],
+    named: Term,
+    subject: Term,
 ) -> _Bin | None:
     """A word with its values in the unit of the subject; None where these do not fit it."""
     if match["rest"]:
-        return _Bin(match["label"])
+        return _Bin(label)
     low, high = (None if end is None else _value(end, named, subject) for end in ends)
     if low is None:
         return None
     if match["low"]:
-        return None if high is None else _Bin(match["label"], low, high)
+        return None if high is None else _Bin(label, low, high)
     is_above = bool(match["a"] or match["f"] or match["up"])
     has_end = not (match["b"] or match["a"])
     if is_above:
-        return _Bin(match["label"], low=low, has_low=has_end)
-    return _Bin(match["label"], high=low, has_high=has_end)
+        return _Bin(label, low=low, has_low=has_end)
+    return _Bin(label, high=low, has_high=has_end)
 
 
 def _value(end: Term, named: Term, subject: Term) -> float | None:

@@ -212,6 +212,15 @@ def calls_wrong(question: str) -> bool:
     return found is not None and found.start() > 0
 
 
+def is_doubted_statement(question: str) -> bool:
+    """Whether a sentence of its own asks if the one before it is wrong: 'It's a ball. Am I wrong?'.
+
+    Behind a comma it is a tag, which expects the statement to hold.
+    """
+    found = _DENYING.search(question)
+    return found is not None and re.match(r"\s*[.!;]", found[0]) is not None
+
+
 def _without_tag(text: str) -> tuple[str, bool]:
     """A statement without its tag, and whether that takes a denial out of it."""
     found = _TAG.search(text)

@@ -190,3 +190,17 @@ def test_no_answer_has_a_wrong_article_or_two_spaces():
 )
 def test_other_units_have_the_digits_of_the_own_one(query, text):
     assert answer(read_query(query, (60.0,)), HELD).text == text
+
+
+@pytest.mark.parametrize(
+    ("query", "numbers", "text"),
+    [
+        ("check force > #1 g.", [100], "No, the force is 85 g."),
+        ("check depth < #1 µm.", [300], "Yes, the depth is 190 µm."),
+        ("check area < #1 mm².", [20], "No, the contact area is 37 mm²."),
+        ("check force #1 - #2 mN.", [100, 900], "Yes, the force is 830 mN."),
+        ("calculate area_mm2 > 20.", [], "Yes, the contact area is 37 mm²."),
+    ],
+)
+def test_what_is_compared_is_told_in_the_unit_of_the_number(query, numbers, text):
+    assert text_of(read_query(query, numbers), HELD) == text

@@ -49,7 +49,9 @@ _CHANGES = (
     "direction (should|shall|must) (we|I|the gripper) (move|go|shift)|(where|where to|how far) (should|shall|must) "
     "(we|I|the gripper) (move|go|shift)|(should|shall|must) (we|I) (move|shift|reposition|regrip) [the (gripper|hand|"
     "fingers|grip)|{thing}]|(do|must) (we|I) (need|have) to (move|shift|reposition|regrip|realign) [the (gripper|hand|"
-    "fingers|grip)|{thing}]|(move|go) (left or right|up or down)|which way"
+    "fingers|grip)|{thing}]|(move|go) (left or right|up or down)|which way|"
+    "(should|shall|must|do|may|can) (we|I|the gripper) [now] (let go [of {thing}]|release [{thing}]|"
+    "open [the (gripper|fingers|hand|grip)|up]|drop {thing}) [now]"
 )
 _NEXT = "(next|now|next|then|from here|at this point|here|first|in this situation)"
 
