@@ -22,7 +22,9 @@ from cltp.errors import TouchError
 from cltp.sensing.photometric import GradientNet
 from cltp.tactile.sensors import SensorSpec
 
-VERSION = 1
+VERSION = 2
+_WITHOUT_BRIGHTENING = 1
+"""The version before light grew with depth: its files are read with none."""
 
 _KEY = "tacgrasp_calibration"
 _MAX_BYTES = 1_000_000  # ours has 8 kB; a file far beyond that is something else
@@ -151,10 +153,10 @@ def _calibration(
     if not isinstance(record, dict):
         raise TouchError("safetensors, but not a calibration: it lacks our record")
     version = record.pop("version", None)
-    if version != VERSION:
+    if version not in (VERSION, _WITHOUT_BRIGHTENING):
         raise TouchError(
-            f"calibration of version {version}, expected {VERSION}; calibrate anew with this "
-            "version of tacgrasp"
+            f"calibration of version {version}, expected {VERSION} or {_WITHOUT_BRIGHTENING}; "
+            "calibrate anew with this version of tacgrasp"
         )
     types = {f.name: f.type for f in fields(Calibration) if f.name != "net"}
     if record.keys() != types.keys():
@@ -172,6 +174,8 @@ def _calibration(
             f"calibration of unit {record['unit']!r}, expected {unit!r}; calibrate this unit"
         )
     names = {f.name for f in fields(GradientNet)}
+    if version == _WITHOUT_BRIGHTENING:
+        names.remove("brightening")
     if arrays.keys() != names:
         raise TouchError(f"calibration: expected arrays {sorted(names)}, got {sorted(arrays)}")
     return Calibration(net=GradientNet(**arrays), **record)  # type: ignore[arg-type]

@@ -10,6 +10,10 @@ so that the gradient is exactly zero where the colour did not change (our choice
 has to learn that, and drifts by its error). The surface is the least-squares integral of the
 gradients.
 
+The light grows as the gel is pushed towards the lamps, so that a deep press looks steeper than a
+shallow one. Colours are divided by that growth before the network reads them, at the depths that
+every fourth pixel gives without it.
+
 Source: R. J. Woodham, Photometric method for determining surface orientation (1980); a network per
 pixel as customary for GelSight sensors; the form above and the integration are ours.
 
@@ -19,7 +23,7 @@ Not here: training the network (``cltp.train.photometric``), its file
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, field, fields, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -38,6 +42,7 @@ STALE_LEVELS = 20.0
 """Median change of a frame against its background above which the background is stale. Our choice:
 it is 2 levels on the frames of ball presses that we have; a failed lamp gives 30."""
 
+_DEPTH_STRIDE = 4  # pixels between those that tell the depths by which colours are divided
 _BLOCK = 400  # pixels at a time: small enough that BLAS does not start threads, which only wait
 
 
@@ -52,6 +57,7 @@ class GradientNet:
         b2: (H,).
         w3: (H, 6). Columns: the rows of M, dz/dx first.
         b3: (6,).
+        brightening: (1,). Growth of the light with the depth of the gel [1 / mm].
 
     Raises:
         TouchError: Shapes don't fit each other, or a value is not finite.
@@ -63,20 +69,21 @@ class GradientNet:
     b2: FloatArray
     w3: FloatArray
     b3: FloatArray
+    brightening: FloatArray = field(default_factory=lambda: np.zeros(1, dtype=np.float32))
 
     def __post_init__(self) -> None:
         hidden = self.b1.size
-        shapes = ((5, hidden), (hidden,), (hidden, hidden), (hidden,), (hidden, 6), (6,))
-        for field, shape in zip(fields(self), shapes, strict=True):
+        shapes = ((5, hidden), (hidden,), (hidden, hidden), (hidden,), (hidden, 6), (6,), (1,))
+        for each, shape in zip(fields(self), shapes, strict=True):
             # in C order: safetensors writes the memory of a transposed array unchanged
-            value = np.array(getattr(self, field.name), dtype=np.float32, order="C")
+            value = np.array(getattr(self, each.name), dtype=np.float32, order="C")
             if hidden == 0 or value.shape != shape or not np.isfinite(value).all():
                 raise TouchError(
-                    f"calibration: {field.name} must be finite, of shape {shape}, "
+                    f"calibration: {each.name} must be finite, of shape {shape}, "
                     f"got {value.shape}; calibrate anew"
                 )
             value.setflags(write=False)
-            object.__setattr__(self, field.name, value)
+            object.__setattr__(self, each.name, value)
 
 
 def position_inputs(sensor: SensorSpec) -> FloatArray:
@@ -90,6 +97,14 @@ def colour_change(frame: Frame, background: Frame) -> FloatArray:
     """Change of colour against the untouched gel, (rows × columns, 3), in ``COLOUR_SCALE``."""
     change = frame.astype(np.float32) - background.astype(np.float32)
     return change.reshape(-1, 3) * np.float32(1 / COLOUR_SCALE)
+
+
+def without_brightening(change: FloatArray, depth_mm: FloatArray, brightening: float) -> FloatArray:
+    """Changes of colour (N, 3) at depths (N,) [mm], as they would be at the height of the gel.
+
+    ``brightening`` is the growth of the light [1 / mm]; what is raised is left as it is.
+    """
+    return change / (1 + np.float32(brightening) * np.maximum(depth_mm, 0))[:, None]
 
 
 class Photometer:
@@ -167,12 +182,20 @@ class Photometer:
             TouchError: Not a frame of this sensor, or the background doesn't belong to it.
         """
         change = self.check_background(frame)
+        if (brightening := float(self._net.brightening[0])) > 0:
+            change = without_brightening(change, self._depths(change), brightening)
+        slopes = self._slopes(change, self._position_terms)
+        shape = (self.sensor.rows, self.sensor.columns)
+        return slopes[:, 0].reshape(shape), slopes[:, 1].reshape(shape)
+
+    def _slopes(self, change: FloatArray, position_terms: FloatArray) -> FloatArray:
+        """Slopes of pixels by their changes of colour (N, 3): (N, 2)."""
         net, slopes = self._net, np.empty((len(change), 2), dtype=np.float32)
         for start in range(0, len(change), _BLOCK):
             part = slice(start, start + _BLOCK)
             colours = change[part]
             hidden = colours @ net.w1[:3]
-            hidden += self._position_terms[part]
+            hidden += position_terms[part]
             np.maximum(hidden, 0, out=hidden)
             hidden = hidden @ net.w2
             hidden += net.b2
@@ -181,8 +204,22 @@ class Photometer:
             matrix += net.b3
             slopes[part, 0] = np.einsum("ij,ij->i", matrix[:, :3], colours)
             slopes[part, 1] = np.einsum("ij,ij->i", matrix[:, 3:], colours)
-        shape = (self.sensor.rows, self.sensor.columns)
-        return slopes[:, 0].reshape(shape), slopes[:, 1].reshape(shape)
+        return slopes
+
+    def _depths(self, change: FloatArray) -> FloatArray:
+        """Depth of the gel at each pixel, by colours as they are: (rows × columns,) [mm]."""
+        shape, step = (self.sensor.rows, self.sensor.columns), _DEPTH_STRIDE
+        middles = np.ix_(
+            *(np.minimum(np.arange(0, size, step) + step // 2, size - 1) for size in shape)
+        )
+        some = [each.reshape(*shape, -1)[middles] for each in (change, self._position_terms)]
+        coarse = some[0].shape[:2]
+        slopes = self._slopes(*(each.reshape(-1, each.shape[-1]) for each in some))
+        height = integrate(
+            slopes[:, 0].reshape(coarse), slopes[:, 1].reshape(coarse), step * self.sensor.mm_per_px
+        )
+        height -= np.median(height)
+        return height.repeat(step, 0).repeat(step, 1)[: shape[0], : shape[1]].ravel()
 
     def heights(self, frame: Frame) -> FloatArray:
         """Surface of the gel, (rows, columns), float32 [mm]: positive into the gel, median zero.

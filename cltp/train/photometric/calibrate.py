@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import torch
@@ -29,13 +29,24 @@ from cltp.sensing.ball_presses import (
     ProfileTable,
     SphericalCap,
     find_press,
+    heights_of,
     slopes_of,
 )
 from cltp.sensing.frames import Frame, check_frame
-from cltp.sensing.photometric import GradientNet, colour_change, position_inputs
+from cltp.sensing.photometric import (
+    GradientNet,
+    colour_change,
+    position_inputs,
+    without_brightening,
+)
 from cltp.tactile.sensors import SensorSpec
 from cltp.train.photometric.consensus import GelPixels, Pixels, consensus_steps, train_consensus
 from cltp.train.photometric.places import TURNS, fit_places, light_of
+
+BRIGHTENING_PER_MM = 0.1
+"""Growth of the light with the depth of the gel [1 / mm]. Without it deep presses of a ball measure
+smaller than shallow ones. Our choice, of 0 to 0.15, by the presses left out of 16 random
+calibrations on 20 of 44 real ones."""
 
 MIN_PRESSES = 5
 """Fewer presses can't cover the sensing area; our choice."""
@@ -106,9 +117,14 @@ def train_gradients(
         report(done, total)
 
     shape: PressShape = SphericalCap(diameter_mm=diameter_mm)
+    brightening = 0.0
     if profiles is not None:
-        shape = profiles
+        shape, brightening = profiles, BRIGHTENING_PER_MM
         presses = fit_places(changes, presses, profiles, background, sensor, step_is_done)
+        changes = [
+            without_brightening(change, _depths(press, profiles, sensor), brightening)
+            for change, press in zip(changes, presses, strict=True)
+        ]
     gel = GelPixels(
         places=torch.from_numpy(position_inputs(sensor)),
         brightness=torch.from_numpy(light_of(background).mean(axis=1).astype(np.float32)),
@@ -119,9 +135,15 @@ def train_gradients(
     with torch.no_grad():
         slopes = model(torch.cat([near.colours, gel.places[near.index]], dim=1))
         residual = math.sqrt(float((slopes - near.slopes).square().mean()))
-    return TrainedPhotometric(
-        net=model.numpy(), presses=tuple(presses), rejected=rejected, residual=residual
-    )
+    net = replace(model.numpy(), brightening=np.array([brightening], dtype=np.float32))
+    return TrainedPhotometric(net=net, presses=tuple(presses), rejected=rejected, residual=residual)
+
+
+def _depths(press: BallPress, profiles: ProfileTable, sensor: SensorSpec) -> NDArray[np.float32]:
+    """Depth of the gel at each pixel, from the middle height of the frame on, (N,) [mm]."""
+    row, column = (a.ravel().astype(float) for a in np.mgrid[0 : sensor.rows, 0 : sensor.columns])
+    height = heights_of(press, profiles, column, row, sensor.mm_per_px)
+    return (height - np.median(height)).astype(np.float32)
 
 
 def _find_all(

@@ -219,7 +219,7 @@ def test_another_sensors_or_units_calibration_is_refused(tmp_path):
 
 def rewritten(tmp_path, change, drop=None):
     """A calibration whose record was changed by hand."""
-    record = {"version": 1, **dataclasses.asdict(calibration())}
+    record = {"version": 2, **dataclasses.asdict(calibration())}
     arrays = {k: np.array(v) for k, v in record.pop("net").items() if k != drop}
     file = tmp_path / "b.safetensors"
     save_file(arrays, file, metadata={"tacgrasp_calibration": json.dumps(change(record))})
@@ -229,7 +229,7 @@ def rewritten(tmp_path, change, drop=None):
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        (lambda record: {**record, "version": 2}, "version 2, expected 1"),
+        (lambda record: {**record, "version": 3}, "version 3, expected 2 or 1"),
         (lambda record: {**record, "extra": 1}, "expected fields"),
         (lambda record: {**record, "num_frames": "44"}, "num_frames must be int"),
         (lambda record: {**record, "num_frames": 0}, "num_frames must be >= 1"),
@@ -243,6 +243,13 @@ def test_a_record_that_was_changed_is_refused(tmp_path, change, message):
     with pytest.raises(TouchError, match=message) as caught:
         load_calibration(file, SENSOR)
     assert str(file) in str(caught.value)
+
+
+def test_a_file_from_before_the_light_grew_with_depth_is_read_without_that(tmp_path):
+    older = rewritten(tmp_path, lambda record: {**record, "version": 1}, drop="brightening")
+    assert load_calibration(older, SENSOR).net.brightening.tolist() == [0.0]
+    with pytest.raises(TouchError, match="expected arrays"):
+        load_calibration(rewritten(tmp_path, lambda record: {**record, "version": 1}), SENSOR)
 
 
 def test_a_missing_array_or_a_damaged_file_is_refused(tmp_path):

@@ -39,7 +39,7 @@ BACKGROUND = np.full((SENSOR.rows, SENSOR.columns, 3), 120, dtype=np.uint8)
 def random_net(seed):
     rng = np.random.default_rng(seed)
     shapes = ((5, 3), (3,), (3, 3), (3,), (3, 6), (6,))
-    names = (field.name for field in dataclasses.fields(GradientNet))
+    names = (field.name for field in dataclasses.fields(GradientNet) if field.name != "brightening")
     return GradientNet(**{name: rng.normal(size=s) for name, s in zip(names, shapes, strict=True)})
 
 
@@ -94,6 +94,20 @@ def test_a_known_law_of_colour_gives_the_surface_back(column, row):
     integral = Photometer(LINEAR, BACKGROUND, SENSOR).heights(photographed(surface))
     np.testing.assert_allclose(integral, surface - np.median(surface), atol=0.02)
     assert integral.dtype == np.float32
+
+
+@pytest.mark.parametrize("depth_mm", [0.5, 1.0])
+def test_light_that_grows_with_depth_makes_nothing_steeper(depth_mm):
+    surface = bump(160, 120, depth_mm)
+    change = photographed(surface).astype(float) - BACKGROUND
+    brighter = (BACKGROUND + np.rint(change * (1 + 0.2 * surface[..., None]))).astype(np.uint8)
+    net = dataclasses.replace(LINEAR, brightening=np.array([0.2], dtype=np.float32))
+    corrected, plain = (
+        Photometer(each, BACKGROUND, SENSOR).heights(brighter) for each in (net, LINEAR)
+    )
+    wanted = surface - np.median(surface)
+    assert abs(corrected - wanted).max() < 0.01 + 0.02 * depth_mm
+    assert abs(corrected - wanted).max() < 0.7 * abs(plain - wanted).max()
 
 
 def test_indentation_is_positive_and_row_zero_is_the_top():
