@@ -53,7 +53,8 @@ _ASKS_WHY = re.compile(
 _VERB = rf"{AUXILIARY}(?:n['’]?t)?"
 _ANOTHER_CLAUSE = re.compile(
     rf"[?!;:]\s*\w|[.,]\s+(?:and |or |also )*{_VERB}\b|\b(?:and|or|plus|also) (?:also )?{_VERB}\b"
-    r"|\b(?:and|plus|also) (?:what|which|how|why|where|whether|if|the|its|it)\b",
+    r"|\b(?:and|plus|also) (?:what|which|how|why|where|whether|if|"
+    r"the(?! (?:left|right|top|bottom|upper|lower)\b)|its|it)\b",
     re.I,
 )
 
@@ -140,6 +141,19 @@ def is_unlikely(question: str, query: str) -> bool:
     if is_choice:
         wanted.add("choice")
     return not kinds & wanted
+
+
+_SAID_FIRST = re.compile(
+    r"(?P<said>[^,;?.!]+)[,;:–—-]+ is (?:that|this) (?:what|how|where) (?P<subject>(?:the \w+|it|"
+    r"this|that)) (?:is|feels|sits|lies|stands)[?.! ]*",
+    re.I,
+)
+
+
+def in_usual_order(question: str) -> str:
+    """A question that says first what it asks: 'Rough, is that how it feels?'; '' of others."""
+    found = _SAID_FIRST.fullmatch(question.strip())
+    return f"Is {found['subject']} {found['said'].lower()}?" if found else ""
 
 
 def begins_as_one(question: str) -> bool:

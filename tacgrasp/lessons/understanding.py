@@ -82,6 +82,7 @@ from tacgrasp.lessons.question_form import (
     alone_asked,
     begins_as_one,
     denied_statement,
+    in_usual_order,
     is_one_clause,
     is_unlikely,
     without_topic,
@@ -238,6 +239,8 @@ def _by_other_words(question: str, before: str) -> ReadQuestion | None:
             return understood_by_grammar(plain, before)
     if before:
         return None
+    if ordered := in_usual_order(question):
+        return understood_by_grammar(ordered)
     alone, topic = without_topic(question)
     if topic and (read := understood_by_grammar(alone)) and topic in read.query:
         return read

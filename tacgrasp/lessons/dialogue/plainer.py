@@ -111,7 +111,8 @@ _CHOICE_TAG = re.compile(r"(?<=\w), (?:no|yes|right|correct)(?=[?.! ]*$)", re.I)
 _ADDED = re.compile(
     r",? (?:rounded )?(?:to|with) (?:\w+|\d) (?:decimals?|decimal places|digits|"
     r"significant (?:figures|digits))|"
-    r"\bboth (?=\w+ and (?!\w+ (?:in|is|are)\b))|\beither (?=.* or )|\ball (?=in \w+\W*$)",
+    r"\bboth (?=\w+ and (?!\w+ (?:in|is|are)\b))|"
+    r"\beither (?!(?:of (?:these|them|the two)|holds?)\b)(?=.* or )|\ball (?=in \w+\W*$)",
     re.I,
 )
 _STEP = (

@@ -163,6 +163,30 @@ class Refusing:
             "calculate 'cylinder' if shape == 'cylinder' else 'other'.",
         ),
         ("It's a sphere. Am I wrong?", "calculate not (shape == 'sphere')."),
+        (
+            "At or over the lower bound of the band, is that where the force is?",
+            "calculate force_n >= band_low_n.",
+        ),
+        (
+            "Does either of these hold: a force beyond 5 newtons, or a dent beyond 0.9 mm?",
+            "calculate (force_n > 5) or (depth_mm > 0.9).",
+        ),
+        (
+            "Does at least one hold: over 8 N, or deeper than 1 mm?",
+            "calculate (force_n > 8) or (depth_mm > 1).",
+        ),
+        (
+            "The horizontal coordinate of the contact, in centimetres, right being plus?",
+            "calculate x_mm in cm.",
+        ),
+        (
+            "Headroom left under the top of the band, in N?",
+            "calculate band_high_n - force_n in N.",
+        ),
+        (
+            "Gravity pulls on the lifted mass with how many newtons?",
+            "calculate 0.00980665 * mass_g in N.",
+        ),
     ],
 )
 def test_what_calculates_is_read_with_some_doubt(question, query):

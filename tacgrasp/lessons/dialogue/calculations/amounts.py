@@ -45,7 +45,10 @@ _WEIGHS = re.compile(
     r"grasped))? "
     r"weigh|(?:with )?(?:how much|what|"
     r"how many [a-z]+)(?: force)? "
-    r"(?:does|do) gravity pull (?:on |at )?(?:(?:the|that|this) )?[a-z]+(?: with| down| at)*"
+    r"(?:does|do) gravity pull (?:on |at )?(?:(?:the|that|this) )?[a-z]+(?: with| down| at)*|"
+    r"gravity (?:pulls|acts|tugs) (?:on|at) (?:(?:the|that|this) )?(?:lifted |held |"
+    r"gripped )?[a-z]+ "
+    r"with (?:how much|what|how many [a-z]+)"
 )
 _MASS_OF = re.compile(
     r"(?:what|which|how much|how large a) (?:mass|weight)(?: would| does)? "
@@ -156,7 +159,8 @@ def _alone(asked: AskedWords) -> Term | None:
     if term is None:
         return None
     is_simple = re.fullmatch(r"\w+", term.expression) is not None
-    if is_simple and asked.unit and term.expression not in ("x_mm", "y_mm", "100"):
+    is_place = term.expression in ("x_mm", "y_mm") and "coordinate" not in term.words
+    if is_simple and asked.unit and not is_place and term.expression != "100":
         return term
     in_force = term.is_weight and asked.unit in ("N", "mN")
     return term if in_force or not is_simple else None

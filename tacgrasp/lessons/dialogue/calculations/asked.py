@@ -172,7 +172,8 @@ _SIGNED = re.compile(
     r"(?:(?! (?:(?:and|but) (?:is|are|does|do|will|would)|(?:has|have|does) the) ).)+$|^signed |"
     r" signed(?= in \S+(?: \S+)?$|$)|"
     r" an? (?:minus|negative) "
-    r"(?:figure|value|number|sign)(?: would| will)? means? .+$| with (?:a |the )?sign$"
+    r"(?:figure|value|number|sign)(?: would| will)? means? .+$| with (?:a |the )?sign$|"
+    r" (?:right|up) (?:being|as|is|counts as) (?:plus|positive)$"
 )
 _UNSIGNED = re.compile(
     r" (?:leaving|putting|setting) (?:the )?signs? aside$|"

@@ -84,8 +84,10 @@ _OF_DISTANCE = (
     r"downwards|leftward|rightward|"
     r"leftwards|rightwards|sideways|horizontally|vertically|measuring|"
     r"counting|height|high|find|found|located|down|"
-    r"measure|me|line|crow|flies|as|shortest|smallest|minimum|least|clear|keep|keeps|stay|stays|under|below|"
-    r"vertical|horizontal|over|above|for|feel|need|so|free|surface|air|bird|flight|keeping|get|gets|i'll|"
+    r"measure|me|line|crow|flies|as|shortest|smallest|minimum|least|clear|keep|keeps|stay|stays|"
+    r"under|below|"
+    r"vertical|horizontal|over|above|for|feel|need|so|free|surface|air|bird|flight|keeping|get|"
+    r"gets|i'll|"
     r"(?:contact|touch|object|thing|patch|item)'s|level|after|am|going|correction|effect)"
 )
 _AGAINST = re.compile(rf"\b(?:{AGAINST}) (?P<by>{_LONG})\b")
@@ -118,7 +120,8 @@ _WHICH = re.compile(
 _HOW_FAR = re.compile(r"\bhow (?:far|close|near|much)\b|\b(?:distance|clearance|gap)\b")
 _FOUR = r"left|right|top|bottom|upper|lower|one|or|hand"
 _OF_WHICH = (
-    rf"(?:{_OF_DISTANCE}|{_RIM_OR_CORNER}|nearest|closest|nearer|closer|name|pick|choose|tell|say|{_FOUR}|"
+    rf"(?:{_OF_DISTANCE}|{_RIM_OR_CORNER}|nearest|closest|nearer|closer|name|pick|choose|tell|say|"
+    rf"{_FOUR}|"
     r"four|#\d+|comes?|lean|leans|towards?|most)"
 )
 

@@ -37,12 +37,12 @@ _COMPARED = tuple(
             ">=",
             rf"{REACHES}|at least(?: as \w+ as)?|no less than|not less than|"
             r"not below|not "
-            r"under|no smaller than",
+            r"under|no smaller than|(?:at|on) or (?:above|over|beyond|past)",
         ),
         (
             "<=",
             r"fits? (?:inside|within|into|in)|at most|no more than|not more than|not above|"
-            r"not over|no larger than",
+            r"not over|no larger than|(?:at|on) or (?:below|under|beneath)",
         ),
         (
             ">",
@@ -65,6 +65,7 @@ _PUSHED = re.compile(
     r"ed)?(?: on it)? (?:harder|more)|(?:us|spend|tak)(?:ing|es?|en|ed)(?: up)? more) than|"
     r"(?:we|you|i|it|the gripper)(?: are| is)? (?:us|spend|tak)(?:ing|es?|en)(?: up)? over"
 )
+_OUTWEIGHS = re.compile(r"\boutweighs? (?=(?:the |this |that )?(?:object|thing|item|berry|part)\b)")
 _AMOUNT = r"(?:(?P<more>more than|over)|(?P<fewer>less than|under)|at least)"
 _SIDES = (
     r"(?:(?P<up>exceeds?|clears?|above|over|beyond|(?:greater|larger|higher|more|heavier|"
@@ -109,8 +110,9 @@ _IN_BAND = re.compile(
     r" upon)?)"
 )
 _ANY = re.compile(
-    r"(?:either one|at least one|one of (?:them|these|the two)|"
-    r"any)(?: of (?:these|them|the two))?(?: (?:is|are|holds?|true|satisfied|met|the case|"
+    r"(?:either one|either(?= (?:of (?:these|them|the two)|holds?)\b)|at least one|"
+    r"one of (?:them|these|the two)|any)(?: of (?:these|them|the two))?(?: (?:is|are|holds?|true|"
+    r"satisfied|met|the case|"
     r"fulfilled|of the following))*"
 )
 _ASKS_ANY = re.compile(rf"^(?:{_VERB} )?{_ANY.pattern} | {_ANY.pattern}$")
@@ -124,7 +126,8 @@ _JOINT = re.compile(r" (and|or) ")
 _BARE = re.compile(
     r"(?:pressed|pushed|squeezed|held|gripped|touched) with "
     r"(?=(?:more|less|at least|at most|over|under)\b)|"
-    r"(?=(?:more|less|greater|deeper|shallower|heavier|lighter|stronger) than )"
+    r"(?=(?:more|less|greater|deeper|shallower|heavier|lighter|stronger) than )|"
+    r"(?=(?:over|above|under|below|beyond|past) #\d)"
 )
 _NEITHER = re.compile(
     r"(?:it (?:true|correct|right|the case|so) that )?(?:(?P<s>.+?) (?:is )?)?neither (?P<a>.+) "
@@ -230,6 +233,7 @@ def condition_of(asked: AskedWords, words: str) -> str | None:
         if (found := pattern.fullmatch(words)) and (told := _apart(asked, found)):
             return told
     words = _PUSHED.sub("force more than", words)
+    words = _OUTWEIGHS.sub("exceed the weight of ", words)
     if found := _NEARER.fullmatch(words):
         pairs = [
             _pair(asked, found["a"], each) for each in shared_noun(asked, found["b"], found["c"])

@@ -89,9 +89,9 @@ _APARTS = tuple(
         r"difference|spread) between (?P<a>.+) and (?P<b>.+)",
         rf"compared (?:with|to) (?P<b>.+?) (?:by )?how (?:much|far) (?:(?P<below>lower|less|"
         rf"smaller|"
-        rf"weaker)|(?P<above>higher|more|larger|greater|stronger)) {IS} (?P<a>.+)",
+        rf"weaker)|(?P<above>higher|more|larger|greater|stronger)|off|away) {IS} (?P<a>.+)",
         r"(?:the )?(?P<below>headroom|room|margin|leeway|reserve)(?P<a>)(?: left)? (?:to|up to|"
-        r"until|"
+        r"until|under|below|beneath|"
         r"before) (?P<b>.+)",
         r"(?:(?:what|how (?:large|big|much|great)) is )?(?:the )?(?P<apart>deviation|departure|"
         r"error)"
@@ -256,7 +256,8 @@ def error(asked: AskedWords) -> Term | None:
 
 
 _RIGHT_IS_PLUS = re.compile(
-    r"\b(?:plus|positive) (?:for|is|to|means|meaning) (?:the )?(?:right|up)\b"
+    r"\b(?:plus|positive) (?:for|is|to|means|meaning) (?:the )?(?:right|up)\b|"
+    r"\b(?:right|up) (?:being|as|is|counts as|means) (?:plus|positive)\b"
 )
 _TO_PLACE = re.compile(r"\b(?:middle|center|midline|midpoint)\b")
 _SIDEWAYS = re.compile(r"\b(?:sideways|horizontally|right|left|across)\b")

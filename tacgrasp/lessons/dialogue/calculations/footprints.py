@@ -30,7 +30,8 @@ _AREA = re.compile(
     r"surface)\b"
 )
 _OF_FORM = (
-    r"(?:if|suppose|supposing|pretend|imagine|assume|assuming|say|were|was|the|a|an|my|our|that|this|it|"
+    r"(?:if|suppose|supposing|pretend|imagine|assume|assuming|say|were|was|the|a|an|my|our|that|"
+    r"this|it|"
     r"contact|patch|footprint|area|print|imprint|spot|region|touched|part|surface|size|pad|gel|"
     r"redrawn|drawn|redraw|draw|made|turned|reshaped|rounded|replaced|modelled|treated|taken|"
     r"thought|squashed|squeezed|moulded|into|as|to|by|with|of|on|in|for|being|one|perfect|"

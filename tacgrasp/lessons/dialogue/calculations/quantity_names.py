@@ -109,12 +109,14 @@ _NAMED: Mapping[str, tuple[str, str]] = {
     r"abs x": ("abs(x_mm)", "length"),
     r"abs y": ("abs(y_mm)", "length"),
     r"x(?: (?:offset|coordinates?|value|position|component|displacement))?|(?:horizontal|sideways|"
-    r"lateral|left right) (?:offset|position|displacement|coordinate)|contact's x": (
+    r"lateral|left right) (?:offset|position|displacement|coordinate)(?: of (?:the )?(?:contact|"
+    r"touch|patch|print)(?: spot| point| patch)?)?|contact's x": (
         "x_mm", "length",
     ),
     r"y(?: (?:offset|coordinates?|value|position|component|displacement))?|(?:vertical|lengthwise|"
     r"up down|up and down) "
-    r"(?:offset|position|displacement|coordinate)|contact's y": ("y_mm", "length"),
+    r"(?:offset|position|displacement|coordinate)(?: of (?:the )?(?:contact|touch|patch|print)"
+    r"(?: spot| point| patch)?)?|contact's y": ("y_mm", "length"),
     r"sum of (?:both|(?:the )?(?:two|#\d+)) (?:coordinates|offsets)(?: of (?:the )?contact)?": (
         "x_mm + y_mm", "length",
     ),
