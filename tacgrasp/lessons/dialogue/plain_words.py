@@ -118,6 +118,7 @@ MISSPELLINGS: Mapping[str, str] = {
     "dunno": "do not know",
     "kinda": "kind of",
     "rn": "right now",
+    "avg": "average",
     "approx": "approximately",
     "tht": "that",
     "ths": "this",

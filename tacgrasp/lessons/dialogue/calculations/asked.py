@@ -126,6 +126,9 @@ _SLASH = re.compile(
     r"mass|"
     r"weight|actual|x|y)\b)"
 )
+_OVER_MAXIMUM = re.compile(
+    r"\b(over|past|above|beyond|exceed(?:s|ing)?|below|under) (?:the|our) max(?:imum)?(?=[,.?! ]*$)"
+)
 _HOLD_ALL = re.compile(
     r"(?:do|does|are|is) (?:(?:both|all)(?: of (?:them|these))?|the following)(?: conditions)? "
     r"(?:hold|holds|true|met|satisfied|the case|so)[:,]? "
@@ -307,6 +310,7 @@ def usual_unit(dimension: str) -> str:
 def asked_words(question: str) -> AskedWords:
     """A question in plain words, with what it says of unit and sign taken out."""
     question = _EXTRA_ONE.sub("another ", _ITS.sub("the", question.lower()))
+    question = _OVER_MAXIMUM.sub(r"\1 the limit", question)
     question = _FULL_ONE.sub("1 ", _ONE_MORE.sub(r"1 \1 more", question))
     question = _PER_SLASH.sub(r"\1 per \2", _KEEPING_SIGNS.sub("", question))
     question = _SLASH.sub(" divided by ", _WERE_TO.sub(r"if \1 ", question))

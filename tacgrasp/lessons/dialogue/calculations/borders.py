@@ -92,7 +92,10 @@ _OF_DISTANCE = (
 )
 _AGAINST = re.compile(rf"\b(?:{AGAINST}) (?P<by>{_LONG})\b")
 _CLEAR = re.compile(rf"(?<= )(?P<by>{_LONG}) (?=(?:clear|away|inward|inside|free)\b)")
-_VERB = re.compile(rf"(?:is|are|does|do|has|have|will|would) |(?=(?:{AGAINST}) )")
+_VERB = re.compile(
+    rf"(?:is|are|does|do|has|have|will|would) |(?=(?:(?:the )?contact(?: center| middle)? )?"
+    rf"(?:{AGAINST}) )"
+)
 _PAD_IS = re.compile(
     rf"how (?:(?P<wide>wide|broad)|high|tall) is (?:(?:the|your|this|our) )?{_PAD}"
 )

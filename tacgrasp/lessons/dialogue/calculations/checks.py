@@ -190,13 +190,14 @@ def calculated_check(asked: AskedWords) -> Calculated | None:
         is_any, words = True, _ASKS_ANY.sub("", words)
     elif begin := re.match(rf"(?:{_VERB}|am|do|may|might|should) (?=.)", words):
         words = words[begin.end() :]
-    else:
+    elif not words.startswith("neither "):
         return None
     words = asked.in_its_unit(words)
     words = re.sub(r"^(it|we|they) both ", r"\1 ", words.strip())
     words = _NEITHER_PASSED.sub(r"neither force exceeds \1 nor force exceeds \2", words)
     if found := _NEITHER.fullmatch(words):
-        parts = [condition_of(asked, f"{found['s'] or ''} {found[n]}".strip()) for n in "ab"]
+        said = [f"{found['s'] or ''} {found[n]}".strip() for n in "ab"]
+        parts = [condition_of(asked, each) or condition_of(asked, f"it {each}") for each in said]
         told = [f"not ({part})" for part in parts if part]
         return Calculated(truth=" and ".join(told), unit=None) if len(told) == 2 else None
     condition = _condition(asked, words, joint=" or " if is_any else "")

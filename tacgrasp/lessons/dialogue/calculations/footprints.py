@@ -89,8 +89,8 @@ _FREE = re.compile(
 )
 _OF_FREE = (
     rf"(?:{_OF_PRESSURE}|free|untouched|uncovered|unpressed|bare|clear|empty|not|being|any|touch|"
-    r"stay|stays|remain|remains|left|have|has|mm2|cm²|square|millimetres|pad's|gel's|sensing|"
-    r"x|surface|still|large|big|total|many|aren't)"
+    r"stay|stays|remain|remains|left|have|has|mm2|cm²|square|millimetres?|pad's|gel's|sensing|"
+    r"sensor|right|x|surface|still|large|big|total|many|aren't)"
 )
 
 

@@ -19,7 +19,7 @@ _IN_WORDS = (
     rf"(?:just |only )?(?:in|with|as) (?:(?:plain|simple|everyday|your own) )?(?:words?|language|"
     rf"terms)(?:(?:,? (?:only|alone|please|likewise))|,? (?:not|rather than|instead of|and not) "
     rf"(?:in |as |with )?(?:an? |the )?{_FIGURES})*|(?:put )?(?:verbally|qualitatively)(?: put|"
-    rf" speaking)?|likewise as a word|(?:an? )?word,? not (?:an? )?{_FIGURES}|"
+    rf" speaking)?|likewise as a word|(?:in )?(?:an? )?word,? not (?:an? )?{_FIGURES}|"
     r"(?:(?:in )?(?:one|a) (?:single )?word (?:for )?each(?: of (?:them|these|the two))?))"
 )
 _REMARK = re.compile(

@@ -188,12 +188,22 @@ class AnswerReading:
 
 def _phrases_of(choices: Sequence[str]) -> Mapping[str, str]:
     """How answers say each of some words to choose from."""
-    plain = {word: rf"\b{re.escape(told)}\b" for word, told in _told_apart(choices).items()}
+    plain = {word: _said(told) for word, told in _told_apart(choices).items()}
     for phrases in _PHRASES.values():
         meant = {word: _ALSO.get(word, word) for word in choices}
         if choices and set(meant.values()) <= phrases.keys():
             return {word: f"{phrases[meant[word]]}|{plain[word]}" for word in choices}
     return plain
+
+
+_BESIDE = re.compile(r"(above|over|below|under|beyond|past) (?:(?:the|our) )?(\w+)")
+
+
+def _said(choice: str) -> str:
+    """How an answer says a choice: 'over the limit' also as 'Over: the limit is 1 N'."""
+    found = _BESIDE.fullmatch(choice)
+    other = rf"|\b{found[1]}\b(?=:.*\b{found[2]}\b)" if found else ""
+    return rf"\b{re.escape(choice)}\b{other}"
 
 
 def _told_apart(choices: Sequence[str]) -> Mapping[str, str]:
