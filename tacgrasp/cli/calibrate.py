@@ -30,7 +30,7 @@ class CalibrateGelsightFlags:
     """Learn heights from colours, from presses of a ball of known diameter.
 
     Before: press a steel ball at 20 or more places all over the gel, take one frame of each press,
-    and one frame with nothing touching the gel. Learning takes about 15 s of one core.
+    and one frame with nothing touching the gel. Learning takes about 20 s of one core.
 
     Attributes:
         balls: Folder with the frames (320 × 240, colour).

@@ -58,6 +58,7 @@ from tacgrasp.lessons.dialogue.rules.follow_ups import (
     asks_by_how_much,
     completed,
     difference_of,
+    leaves_unit_out,
     with_quantity_of,
 )
 from tacgrasp.lessons.dialogue.rules.ruled import ruled_whole
@@ -399,9 +400,12 @@ def _completed(question: str, before: str) -> ReadQuestion | None:
     """A follow-up that takes its other side, its words or its unit from the question before it."""
     if text := completed(question, before):
         return understood_by_grammar(text)
+    is_by_how_much = asks_by_how_much(question)
+    if not (is_by_how_much or leaves_unit_out(question)):
+        return None
     if (earlier := understood_by_grammar(before)) is None:
         return None
-    if asks_by_how_much(question):
+    if is_by_how_much:
         apart = difference_of(earlier.meaning)
         return ReadQuestion(query_of(apart), apart, CALCULATED_CONFIDENCE) if apart else None
     named = with_quantity_of(question, earlier.meaning)

@@ -26,7 +26,7 @@ from torch import Tensor
 from cltp.train.photometric.network import Net, train_net
 
 TEACHERS = 4
-STUDENT_STEPS = 2
+STUDENT_STEPS = 4
 """Steps of the network that learns the average, over those of each that it learns from."""
 
 _SAMPLES = 200_000

@@ -65,7 +65,7 @@ def test_the_numbers_of_a_question_come_from_the_question():
     asked = understood(writer, "Is the force above eighty grams?")
     assert writer.prompt == "is the force above # grams"
     given = answered(asked, HELD)
-    assert given.answer.text == "Yes, the force is 0.83 N."
+    assert given.answer.text == "Yes, the force is 85 g."
     assert (given.answer.value, given.answer.decidable) == (True, True)
     assert given.confidence == pytest.approx(asked.confidence)
 

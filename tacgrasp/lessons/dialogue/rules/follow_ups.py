@@ -71,11 +71,14 @@ def completed(question: str, before: str) -> str:
     return f"{before[: places[-1].start()]}{found['rest']}" if places else ""
 
 
+def leaves_unit_out(question: str) -> bool:
+    """Whether a question is about 'it' and ends with a number that has no unit."""
+    return bool(_BARE_NUMBER.search(question) and _PRONOUN.search(question))
+
+
 def with_quantity_of(question: str, asked: Meaning) -> str:
-    """A follow-up about 'it' with a bare number, in the words of the number before it; else ''."""
-    name = _QUANTITIES.get(asked.quantity) if isinstance(asked, Amount) else None
-    if name is None or _BARE_NUMBER.search(question) is None or not _PRONOUN.search(question):
+    """A follow-up that leaves the unit out, in the words of the number before it; '' of others."""
+    if not isinstance(asked, Amount) or (name := _QUANTITIES.get(asked.quantity)) is None:
         return ""
-    assert isinstance(asked, Amount)
     about = _PRONOUN.sub(f"the {name}", question, count=1)
     return _BARE_NUMBER.sub(rf"\g<number> {asked.unit}", about)
