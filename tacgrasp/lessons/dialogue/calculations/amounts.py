@@ -73,6 +73,10 @@ _ALONE = re.compile(
 )
 
 
+_ON_SCALE = re.compile(
+    r"(?:what|how much) (?:would|will|does|should|might) (?:a|the|my|our) (?:\w+ )?"
+    r"(?:scales?|balance) (?:show|read|say|display|indicate|report)s?(?: (?:if|when|under|with|for|at) .*)?"
+)
 _OF_FORCE = re.compile(rf"(?P<unit>{UNIT}) of (?:force|grip|squeeze|push|pull)")
 _OWN_UNITS: Mapping[str, str] = {"area": "mm²", "volume": "mm³"}
 """Units in which answers give what only a calculation has."""
@@ -82,6 +86,8 @@ def calculated_amount(asked: AskedWords) -> Calculated | None:
     """The number that a question asks to calculate; None where it asks for none."""
     if alone := _OF_FORCE.fullmatch(asked.words):  # 'kilos of force, please'
         asked = replace(asked, words="force", unit=unit_of(alone["unit"]))
+    if not asked.numbers and _ON_SCALE.fullmatch(asked.words):
+        asked = replace(asked, words="force", unit=asked.unit or "g")
     readers: tuple[Callable[[AskedWords], Term | None], ...] = (
         to_border, pressure, stiffness, circle, free_area, volume, as_many_as, on_scale,
         safety_factor, needed, load, unused, share, ratio, missing, signed_offset, error, apart,

@@ -87,7 +87,7 @@ _PRESSURE_UNIT = re.compile(
     r"(?<!\d )\b(?:psi|(?:hecto|kilo|mega)?pascals?|[hkm]pa|millibars?|mbar|mmhg|atmospheres?)\b"
 )
 _MANY = re.compile(
-    rf"\b(?:how many(?: (?:{_MORE}|whole))?|what|which|how much) "
+    rf"\b(?:how many(?: (?:{_MORE}|whole))?|what|which|how much(?: {_MORE})?) "
     rf"({UNIT})\b(?! of (?:the |our )?(?!force|grip|squeeze|pressure|indentation|travel|load|it))"
     rf"(?: of (?:force|grip|squeeze|indentation|travel)\b)?(?: {_MORE}\b)?"
 )

@@ -133,6 +133,10 @@ _NEITHER = re.compile(
     r"(?:it (?:true|correct|right|the case|so) that )?(?:(?P<s>.+?) (?:is )?)?neither (?P<a>.+) "
     r"nor (?P<b>.+)"
 )
+_USED_UP = re.compile(
+    r"(?:it )?(?P<sign>more|less) than (?P<b>.+?) (?:(?:is|are|has|have|been|being|already|now) )*"
+    r"(?:used|taken|spent|exhausted)(?: up)?"
+)
 _NEITHER_PASSED = re.compile(
     r"neither (.+) nor (.+?) (?:exceeded|surpassed|passed|crossed|broken|violated|overstepped)"
     r"(?: by (?:the )?(?:\w+ )?(?:force|grip|squeeze))?"
@@ -196,7 +200,8 @@ def calculated_check(asked: AskedWords) -> Calculated | None:
     words = re.sub(r"^(it|we|they) both ", r"\1 ", words.strip())
     words = _NEITHER_PASSED.sub(r"neither force exceeds \1 nor force exceeds \2", words)
     if found := _NEITHER.fullmatch(words):
-        said = [f"{found['s'] or ''} {found[n]}".strip() for n in "ab"]
+        last = re.sub(r"(?<=\w) it$", f" {found['a'].partition(' ')[2]}", found["b"])
+        said = [f"{found['s'] or ''} {each}".strip() for each in (found["a"], last)]
         parts = [condition_of(asked, each) or condition_of(asked, f"it {each}") for each in said]
         told = [f"not ({part})" for part in parts if part]
         return Calculated(truth=" and ".join(told), unit=None) if len(told) == 2 else None
@@ -233,6 +238,8 @@ def condition_of(asked: AskedWords, words: str) -> str | None:
     for pattern in (_BY, _SO_MUCH):
         if (found := pattern.fullmatch(words)) and (told := _apart(asked, found)):
             return told
+    if found := _USED_UP.fullmatch(words):
+        words = f"force {found['sign']} than {found['b']}"
     words = _PUSHED.sub("force more than", words)
     words = _OUTWEIGHS.sub("exceed the weight of ", words)
     if found := _NEARER.fullmatch(words):

@@ -93,9 +93,9 @@ _UNUSED = re.compile(
     rf" is)? {_FREE}"
 )
 _THICK = re.compile(
-    r"(?:if|suppose|assuming|say|given) (?:the|this|our) (?:gel|pad|skin) (?:is|were|was) "
-    r"(?P<b>#\d+ \w+) thick (?:what|how many|"
-    rf"which) {PARTS} of (?:it|that|the (?:thickness|gel))\b.*"
+    r"(?:(?:if|suppose|assuming|say|given) )?(?:the|this|our) (?:gel|pad|skin|rubber|elastomer|"
+    r"cushion) (?:is|were|was) (?P<b>#\d+ \w+) thick(?: on this one| here)? (?:what|how many|"
+    rf"which) {PARTS} of (?:it|that|this|the (?:thickness|gel))\b.*"
 )
 _STIFFNESS = re.compile(
     r"(?:(?:give|tell|state|what|is|are|me|how|many|the|that|work|find|now|please) )*"

@@ -190,11 +190,12 @@ def binned(question: str, asked: AskedWords) -> str | None:
     listed = {word for each in _LISTED.findall(asked.words) for word in each if word}
     labelled = all(match["label"] in listed or _is_label(question, match) for match in row)
     told = _chosen(asked, row) if len(row) > 1 and labelled else None
-    return told or _range(asked, question)
+    return told or _range(question)
 
 
-def _range(asked: AskedWords, question: str) -> str | None:
+def _range(question: str) -> str | None:
     """The one of several ranges that a question names, in its words; None of other questions."""
+    asked = asked_words(question)  # as it is written: 'between', not 'from ... to'
     starts = [match.start() for match in re.finditer(r"(?<![^ ])(?=[a-z#])", asked.words)]
     rows = (_row(asked.words, _VALUES_ALONE, start, _VALUES_ALONE) for start in reversed(starts))
     row = max(rows, key=len, default=())

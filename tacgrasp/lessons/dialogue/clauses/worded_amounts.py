@@ -13,7 +13,9 @@ _FIGURES = (
     r"millimet(?:re|er)s|newtons|measurements?|maths?)"
 )
 _IN_WORDS = (
-    rf"(?:(?:skip|forget|drop|spare me|leave out|leave away|never mind|without|no) "
+    rf"(?:(?:do not|don['’]t) (?:give|tell|show|quote) (?:me |us )?(?:any )?{_FIGURES}"
+    r"(?:, just (?:tell|say)(?: me)?)?|"
+    rf"(?:skip|forget|drop|spare me|leave out|leave away|never mind|without|no) "
     r"(?:(?:giving|using|saying|telling me) )?(?:the |any |all |an? )?"
     rf"{_FIGURES}(?:,? please)?(?:,? (?:i['’]m|i am|it['’]s|they) [^,:;.?!]*)?|"
     rf"(?:just |only )?(?:in|with|as) (?:(?:plain|simple|everyday|your own) )?(?:words?|language|"
