@@ -75,7 +75,8 @@ _ALONE = re.compile(
 
 _ON_SCALE = re.compile(
     r"(?:what|how much) (?:would|will|does|should|might) (?:a|the|my|our) (?:\w+ )?"
-    r"(?:scales?|balance) (?:show|read|say|display|indicate|report)s?(?: (?:if|when|under|with|for|at) .*)?"
+    r"(?:scales?|balance) (?:show|read|say|display|indicate|report)s?"
+    r"(?: (?:if|when|under|with|for|at) .*)?"
 )
 _OF_FORCE = re.compile(rf"(?P<unit>{UNIT}) of (?:force|grip|squeeze|push|pull)")
 _OWN_UNITS: Mapping[str, str] = {"area": "mm²", "volume": "mm³"}
