@@ -47,11 +47,9 @@ _TOUCHED = (
     "you say) "
     "(whether|if) ({some} (touches|is touching|is on|is resting on|presses on) {pad}|there is "
     "{some})|"
-    "is {some} (touching|pressing|pushing|making contact) [right now|now|here]|(have|did) we "
-    "(actually|really|indeed) (got|get) hold of {some}|"
+    "is {some} (touching|pressing|pushing|making contact) [right now|now|here]|(have|did) we (actually|really|indeed) (got|get) hold of {some}|"
     "is {some} (brushing|grazing|bumping|nudging|tickling|rubbing) {pad}|"
-    "any (sign|trace|hint|evidence|whiff) of (contact|touch|{some})|(did|do) we (bump into|run "
-    "into|"
+    "any (sign|trace|hint|evidence|whiff) of (contact|touch|{some})|(did|do) we (bump into|run into|"
     "come across|hit upon) {some}|is {pad} (busy|engaged|occupied)|have the fingers landed [on "
     "{thing}]|have we (landed|arrived|docked) [on {body}]|is {thing} (aboard|on board|captured|"
     "safely in hand|in our clutches)|did we (snag|nab|bag|hook|score) ({some}|{thing})|"
@@ -118,8 +116,7 @@ _TOUCHED_SAID = (
     "(made|established)"
 )
 _EMPTY = (
-    "are the (fingers|jaws) (clutching|grasping|closing) (at|on) (thin air|nothing|air)|does the "
-    "(reading|sensor) (show|say) "
+    "are the (fingers|jaws) (clutching|grasping|closing) (at|on) (thin air|nothing|air)|does the (reading|sensor) (show|say) "
     "no contact [at all]|is the [gripper] finger (feeling|touching) nothing [at all]|"
     "has {thing} (vanished|disappeared|wandered off|rolled away|flown off|got lost)|"
     "is {pad} (idle|lonely|vacant|deserted|unoccupied)|is {hand} (vacant|unoccupied|bare)|"
@@ -339,10 +336,8 @@ FAMILIES: tuple[QuestionFamily, ...] = (
     QuestionFamily(
         name="describe",
         pattern=(
-            "{lead} ( (describe|report|explain|sketch|narrate|detail|itemise|break down|run "
-            "through|"
-            "put into words|give us the rundown on|walk me through|talk me "
-            "through|verbalise|depict|"
+            "{lead} ( (describe|report|explain|sketch|narrate|detail|itemise|break down|run through|"
+            "put into words|give us the rundown on|walk me through|talk me through|verbalise|depict|"
             "summarise|summarize|characterise|sum up|picture|"
             "outline|"
             "report on|give an account of|comment on|recap) [to (me|us)|for (me|us)|briefly|in "
