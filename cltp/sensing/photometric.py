@@ -60,7 +60,8 @@ class GradientNet:
         brightening: (1,). Growth of the light with the depth of the gel [1 / mm].
 
     Raises:
-        TouchError: Shapes don't fit each other, or a value is not finite.
+        TouchError: Shapes don't fit each other, a value is not finite, or light that grows by less
+            than nothing or more than twofold.
     """
 
     w1: FloatArray
@@ -84,6 +85,11 @@ class GradientNet:
                 )
             value.setflags(write=False)
             object.__setattr__(self, each.name, value)
+        if not 0 <= self.brightening[0] <= 1:
+            raise TouchError(
+                f"calibration: brightening must be 0 to 1 / mm, got {self.brightening[0]:g}; "
+                "calibrate anew"
+            )
 
 
 def position_inputs(sensor: SensorSpec) -> FloatArray:

@@ -96,6 +96,12 @@ def test_a_known_law_of_colour_gives_the_surface_back(column, row):
     assert integral.dtype == np.float32
 
 
+@pytest.mark.parametrize("brightening", [-0.1, 1.5, float("nan")])
+def test_light_that_no_gel_has_is_refused(brightening):
+    with pytest.raises(TouchError, match="brightening must be"):
+        dataclasses.replace(LINEAR, brightening=np.array([brightening]))
+
+
 @pytest.mark.parametrize("depth_mm", [0.5, 1.0])
 def test_light_that_grows_with_depth_makes_nothing_steeper(depth_mm):
     surface = bump(160, 120, depth_mm)

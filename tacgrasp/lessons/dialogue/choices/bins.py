@@ -180,7 +180,7 @@ def binned(question: str, asked: AskedWords) -> str | None:
         named = _LETTER.sub(lambda each: f"letter{each[0].lower()}", question)
         truth = binned(named, asked_words(named))
         return truth and re.sub(r"'letter([a-e])'", lambda each: f"'{each[1].upper()}'", truth)
-    starts = [match.start() for match in re.finditer(r"(?<![^ ])(?=[a-z#])", asked.words)]
+    starts = _starts(asked.words)
     rows = [
         _row(asked.words, pattern, start)
         for pattern in (_LABEL_FIRST, _VALUES_FIRST)
@@ -196,14 +196,21 @@ def binned(question: str, asked: AskedWords) -> str | None:
 def _range(question: str) -> str | None:
     """The one of several ranges that a question names, in its words; None of other questions."""
     asked = asked_words(question)  # as it is written: 'between', not 'from ... to'
-    starts = [match.start() for match in re.finditer(r"(?<![^ ])(?=[a-z#])", asked.words)]
-    rows = (_row(asked.words, _VALUES_ALONE, start, _VALUES_ALONE) for start in reversed(starts))
+    rows = (
+        _row(asked.words, _VALUES_ALONE, start, _VALUES_ALONE)
+        for start in reversed(_starts(asked.words))
+    )
     row = max(rows, key=len, default=())
     if len(row) < (2 if _ASKS_RANGE.search(asked.words) else 3) or any(m["rest"] for m in row):
         return None
     to = "-" if re.search(r"\d ?[-–] ?\d", question) else " to "
     said = [asked.said(match[0]).replace("zero", "0") for match in row]
     return _chosen(asked, row, [re.sub(r"(?<=\d) (?=\d)", to, words) for words in said])
+
+
+def _starts(words: str) -> Sequence[int]:
+    """Where words and numbers begin."""
+    return [match.start() for match in re.finditer(r"(?<![^ ])(?=[a-z#])", words)]
 
 
 def _is_label(question: str, match: re.Match[str]) -> bool:
