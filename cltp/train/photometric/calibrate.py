@@ -41,12 +41,12 @@ from cltp.sensing.photometric import (
 )
 from cltp.tactile.sensors import SensorSpec
 from cltp.train.photometric.consensus import GelPixels, Pixels, consensus_steps, train_consensus
-from cltp.train.photometric.places import TURNS, fit_places, light_of
+from cltp.train.photometric.places import TURNS, fit_brightening, fit_places, light_of
 
-BRIGHTENING_PER_MM = 0.1
-"""Growth of the light with the depth of the gel [1 / mm]. Without it deep presses of a ball measure
-smaller than shallow ones. Our choice, of 0 to 0.15, by the presses left out of 16 random
-calibrations on 20 of 44 real ones."""
+BRIGHTENED = 0.4
+"""Part of the fitted growth of the light that is taken out of colours. Without it deep presses of a
+ball measure smaller than shallow ones, with all of it every press measures larger. Our choice, by
+the presses left out of 16 random calibrations on 20 of 44 real ones."""
 
 MIN_PRESSES = 5
 """Fewer presses can't cover the sensing area; our choice."""
@@ -119,8 +119,9 @@ def train_gradients(
     shape: PressShape = SphericalCap(diameter_mm=diameter_mm)
     brightening = 0.0
     if profiles is not None:
-        shape, brightening = profiles, BRIGHTENING_PER_MM
+        shape = profiles
         presses = fit_places(changes, presses, profiles, background, sensor, step_is_done)
+        brightening = BRIGHTENED * fit_brightening(changes, presses, profiles, background, sensor)
         changes = [
             without_brightening(change, _depths(press, profiles, sensor), brightening)
             for change, press in zip(changes, presses, strict=True)

@@ -33,7 +33,11 @@ FloatArray = NDArray[np.float64]
 TURNS = 6
 """Fits of the coefficients, and of the presses after each."""
 
+BRIGHTENINGS = (0.0, 0.1, 0.2, 0.3, 0.4)
+"""Growths of the light with depth [1 / mm] of which the one of least misfit is interpolated."""
+
 _NEAR_MM = 3.5  # of a press: ball, bulge and a rim
+_SLOPED = 9  # terms of slopes alone, before those of the height
 _STRIDE = 3  # pixels between those that are fitted to
 _BLUR_PX = 6.0
 _PENALTY = 1e-4  # of the coefficients, over their mean square feature
@@ -86,6 +90,53 @@ def fit_places(
         ]
         report()
     return fitted
+
+
+def fit_brightening(
+    changes: Sequence[NDArray[np.float32]],
+    presses: Sequence[BallPress],
+    profiles: ProfileTable,
+    background: Frame,
+    sensor: SensorSpec,
+) -> float:
+    """Growth of the light with the depth of the gel [1 / mm], by which colours are explained best.
+
+    The colour that depends on depth alone is fitted beside it, without regard to the place.
+    """
+    light = light_of(background)
+    places = _polynomial(position_inputs(sensor).astype(np.float64), 0, 3)
+    pixels = [_pixels_near(press, sensor) for press in presses]
+    terms = np.concatenate(
+        [_terms(press, near, profiles, sensor) for press, near in zip(presses, pixels, strict=True)]
+    )
+    at = np.concatenate(pixels)
+    sloped = (terms[:, :_SLOPED, None] * places[at][:, None, :]).reshape(len(at), -1)
+    depth = terms[:, _SLOPED]
+    alone = np.stack([depth, depth**2], axis=1)
+    colours = np.concatenate(
+        [change[near] for change, near in zip(changes, pixels, strict=True)]
+    ).astype(np.float64)
+    misfits = []
+    for brightening in BRIGHTENINGS:
+        growth = 1 + brightening * np.maximum(depth, 0)
+        design = np.concatenate([sloped * growth[:, None], alone], axis=1)
+        misfit = 0.0
+        for colour in range(3):
+            scaled = design * light[at, colour, None]
+            solved = _ridge(scaled, colours[:, colour], np.ones(scaled.shape[1]))
+            misfit += float(np.square(scaled @ solved - colours[:, colour]).mean())
+        misfits.append(misfit)
+    bend, slope, _ = np.polyfit(BRIGHTENINGS, misfits, 2)
+    least = -slope / (2 * bend) if bend > 0 else 0.0
+    return float(np.clip(least, 0.0, BRIGHTENINGS[-1]))
+
+
+def _ridge(design: FloatArray, wanted: FloatArray, penalty: FloatArray) -> FloatArray:
+    """Coefficients (K,) of a design (N, K) by least squares, ``_PENALTY`` times ``penalty``."""
+    moments = design.T @ design
+    squares = np.diag(moments)
+    moments = moments + np.diag(_PENALTY * squares * penalty + 1e-9 * squares.mean())
+    return np.linalg.solve(moments, design.T @ wanted).astype(np.float64)
 
 
 def _polynomial(values: FloatArray, least: int, most: int) -> FloatArray:
@@ -141,10 +192,7 @@ def _fit_coefficients(
     solved = []
     for colour in range(3):
         scaled = design * lit[:, colour, None]
-        moments = scaled.T @ scaled
-        squares = np.diag(moments)
-        moments += np.diag(_PENALTY * squares * penalty.ravel() + 1e-9 * squares.mean())
-        solved.append(np.linalg.solve(moments, scaled.T @ colours[:, colour]))
+        solved.append(_ridge(scaled, colours[:, colour], penalty.ravel()))
     return np.stack(solved, axis=-1).reshape(*penalty.shape, 3)
 
 

@@ -3,10 +3,11 @@
 from collections.abc import Sequence
 
 import numpy as np
+import pytest
 
 from cltp.sensing.ball_presses import BallPress, heights_of, slopes_of
 from cltp.sensing.photometric import COLOUR_SCALE
-from cltp.train.photometric.places import TURNS, fit_places, light_of
+from cltp.train.photometric.places import TURNS, fit_brightening, fit_places, light_of
 from tests.cltp.sensing.test_calibration import COLUMN, LAMPS, PX, ROW, SENSOR, SKIRTS, presses
 
 BRIGHTER = np.array([15.0, 0.0, 20.0])  # levels for each mm of depth
@@ -21,11 +22,15 @@ def shade() -> np.ndarray:
 BACKGROUND = np.rint(130 * shade()[..., None] * np.ones(3)).astype(np.uint8)
 
 
-def change(press: BallPress, rng: np.random.Generator) -> np.ndarray:
-    """Colours of three lamps and of the depth, in the shade, with noise of 2 levels."""
+def change(press: BallPress, rng: np.random.Generator, growth: float = 0.0) -> np.ndarray:
+    """Colours of three lamps and of the depth, in the shade, with noise of 2 levels.
+
+    The lamps' part grows by ``growth`` for each mm of depth.
+    """
     where = COLUMN.ravel(), ROW.ravel(), PX
-    levels = slopes_of(press, SKIRTS, *where) @ LAMPS.T
-    levels += heights_of(press, SKIRTS, *where)[:, None] * BRIGHTER
+    depth = heights_of(press, SKIRTS, *where)[:, None]
+    levels = slopes_of(press, SKIRTS, *where) @ LAMPS.T * (1 + growth * np.maximum(depth, 0))
+    levels += depth * BRIGHTER
     levels = levels * shade().reshape(-1, 1) + rng.normal(0, 2, levels.shape)
     return (levels / COLOUR_SCALE).astype(np.float32)
 
@@ -65,6 +70,14 @@ def test_presses_are_found_where_and_as_deep_as_they_are() -> None:
     before, after = (errors(found, truth) for found in (guesses, fitted))
     assert after[0] < 0.5 * before[0] and after[0] < 1.0  # px
     assert after[1] < 0.6 * before[1] and after[1] < 0.05  # mm
+
+
+@pytest.mark.parametrize("growth", [0.0, 0.15, 0.3])
+def test_light_that_grows_with_depth_is_found_and_none_where_there_is_none(growth: float) -> None:
+    rng, truth = np.random.default_rng(0), presses(10)
+    changes = [change(press, rng, growth) for press in truth]
+    found = fit_brightening(changes, truth, SKIRTS, BACKGROUND, SENSOR)
+    assert abs(found - growth) < 0.04
 
 
 def test_light_is_the_background_without_its_grain() -> None:
