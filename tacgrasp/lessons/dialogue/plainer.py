@@ -115,6 +115,7 @@ _ADDED = re.compile(
     r"\beither (?!(?:of (?:these|them|the two)|holds?)\b)(?=.* or )|\ball (?=in \w+\W*$)",
     re.I,
 )
+_SUPERIOR, _INFERIOR = (re.compile(rf"\b{word} to\b", re.I) for word in ("superior", "inferior"))
 _STEP = (
     r"(?:(?:whole|full|half|quarter|tenth|hundredth|thousandth|one|two|five|ten|hundred|"
     r"\d+(?:\.\d+)?)\b(?: of an?\b)?)"
@@ -251,7 +252,7 @@ def plainer(question: str) -> str:
         ),
         text,
     )
-    text = _MEANING.sub("", text)
+    text = _INFERIOR.sub("below", _SUPERIOR.sub("above", _MEANING.sub("", text)))
     text = _NUMERO.sub(r"\1 number", metric(text))
     if opening := _ADDRESS.match(text):
         text = text[opening.end() :]

@@ -184,7 +184,7 @@ _UNSIGNED = re.compile(
     r"(?:the |its )?(?:sign|direction) | (?:ignoring|without|regardless of|disregarding|no matter) "
     r"(?:the |its )?(?:sign|direction|which(?: is \w+)?|whether .+)$|"
     r" (?:and )?(?:(?:both|each) )?without (?:a |the |any |their )?signs?$|"
-    r" never mind which(?: way)?$| either way$|"
+    r" (?:the )?sign (?:does not|doesn't) matter$| never mind which(?: way)?$| either way$|"
     r" on either side$| (?:whichever|either) (?:way|direction)\b"
 )
 

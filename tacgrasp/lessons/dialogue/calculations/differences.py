@@ -46,7 +46,8 @@ _UNTIL = re.compile(
     r"left|to go))*(?: (?:can|could|may|might) (?:we|you|i|it) \w+)? (?:until|till|to|before|"
     r"up to) "
     r"(?:(?:we|you|it|i|the \w+) (?:reach|hit|are(?: at)?|is(?: at)?|get to|reaches|reached|hits|"
-    r"measures?d?|was|touch|am at|gets? (?:up |down )?to|comes? (?:up )?to|touches|come to|"
+    r"measures?d?|was|touch|am at|go (?:over|past|beyond)|exceed|"
+    r"gets? (?:up |down )?to|comes? (?:up )?to|touches|come to|"
     r"bump into|run into) )?(?P<b>.+?)"
     r"(?: (?:deep |down )?(?:in|into) (?:the|this|that) \w+)?"
 )
