@@ -139,7 +139,7 @@ class Refusing:
         ),
         (
             "Is the depth under 0.3 mm, between 0.3 and 0.6 mm, or over 0.6 mm?",
-            "calculate 'under 0.3 mm' if depth_mm < 0.3 else 'from 0.3 to 0.6 mm' "
+            "calculate 'under 0.3 mm' if depth_mm < 0.3 else 'between 0.3 and 0.6 mm' "
             "if 0.3 <= depth_mm <= 0.6 else 'over 0.6 mm'.",
         ),
         (
