@@ -12,9 +12,10 @@ Not here: parts that only the language model reads (``tacgrasp.lessons.understan
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 
 from tacgrasp.lessons.dialogue.choices.named import either_named
+from tacgrasp.lessons.dialogue.clauses.lists import Reader
 from tacgrasp.lessons.dialogue.conditions import check_of
 from tacgrasp.lessons.dialogue.families.catalogue import understand
 from tacgrasp.lessons.dialogue.meaning import (
@@ -36,9 +37,6 @@ MOST_JOINED = 5
 
 MOST_APART = 3
 """Most joined questions that are read by more than the grammar. Our choice."""
-
-PartReader = Callable[[str], Meaning | None]
-"""Reads a question of one clause; None where it can't."""
 
 MOST_JOINTS = 8
 """Most places where a question may be divided. Our choice: three questions with commas of their own
@@ -176,7 +174,7 @@ def is_either(question: str) -> bool:
     return _OR.search(question) is not None and _NOT_EITHER.search(question) is None
 
 
-def asked_apart(question: str, read: PartReader) -> Meaning | None:
+def asked_apart(question: str, read: Reader) -> Meaning | None:
     """The meaning of two or three joined questions, each of which ``read`` reads; else None."""
     parts = _joined(question, MOST_APART, read)
     return together(parts) if parts else None
@@ -187,7 +185,7 @@ def joined(question: str, most: int = MOST_JOINED) -> tuple[Part, ...]:
     return _joined(question, most, read_part)
 
 
-def _joined(question: str, most: int, read: PartReader) -> tuple[Part, ...]:
+def _joined(question: str, most: int, read: Reader) -> tuple[Part, ...]:
     question = _COUNTED.sub("", REQUEST.sub("", _AT_LENGTH.sub(" ", question).strip(), count=1))
     question = _HOW_MUCH.sub("", _BOTH_ENDS.sub(_LOW_AND_HIGH, question))
     for pattern, noun in _INDIRECT:

@@ -140,9 +140,14 @@ def train_gradients(
     return TrainedPhotometric(net=net, presses=tuple(presses), rejected=rejected, residual=residual)
 
 
+def _every_pixel(sensor: SensorSpec) -> NDArray[np.float64]:
+    """Row and column of each pixel, (2, rows × columns)."""
+    return np.indices((sensor.rows, sensor.columns)).reshape(2, -1).astype(np.float64)
+
+
 def _depths(press: BallPress, profiles: ProfileTable, sensor: SensorSpec) -> NDArray[np.float32]:
     """Depth of the gel at each pixel, from the middle height of the frame on, (N,) [mm]."""
-    row, column = (a.ravel().astype(float) for a in np.mgrid[0 : sensor.rows, 0 : sensor.columns])
+    row, column = _every_pixel(sensor)
     height = heights_of(press, profiles, column, row, sensor.mm_per_px)
     return (height - np.median(height)).astype(np.float32)
 
@@ -176,7 +181,7 @@ def _pixels(
     far: int = _FAR_SAMPLES,
 ) -> Pixels:
     """Pixels of all frames whose slope is known."""
-    row, column = (a.ravel().astype(float) for a in np.mgrid[0 : sensor.rows, 0 : sensor.columns])
+    row, column = _every_pixel(sensor)
     parts = []
     for change, press in zip(changes, presses, strict=True):
         slopes = slopes_of(press, shape, column, row, sensor.mm_per_px)

@@ -71,8 +71,7 @@ def fit_places(
         sensor: Sensor of the frames.
         report: Called ``TURNS`` times.
     """
-    light = light_of(background)
-    places = _polynomial(position_inputs(sensor).astype(np.float64), 0, 3)
+    light, places = light_of(background), _place_terms(sensor)
     fitted = list(presses)
     for _ in range(TURNS):
         pixels = [_pixels_near(press, sensor) for press in fitted]
@@ -103,19 +102,12 @@ def fit_brightening(
 
     The colour that depends on depth alone is fitted beside it, without regard to the place.
     """
-    light = light_of(background)
-    places = _polynomial(position_inputs(sensor).astype(np.float64), 0, 3)
+    light, places = light_of(background), _place_terms(sensor)
     pixels = [_pixels_near(press, sensor) for press in presses]
-    terms = np.concatenate(
-        [_terms(press, near, profiles, sensor) for press, near in zip(presses, pixels, strict=True)]
-    )
-    at = np.concatenate(pixels)
-    sloped = (terms[:, :_SLOPED, None] * places[at][:, None, :]).reshape(len(at), -1)
+    at, terms, colours = _observed(changes, presses, pixels, profiles, sensor)
+    sloped = _products(terms[:, :_SLOPED], places[at])
     depth = terms[:, _SLOPED]
     alone = np.stack([depth, depth**2], axis=1)
-    colours = np.concatenate(
-        [change[near] for change, near in zip(changes, pixels, strict=True)]
-    ).astype(np.float64)
     misfits = []
     for brightening in BRIGHTENINGS:
         growth = 1 + brightening * np.maximum(depth, 0)
@@ -129,6 +121,31 @@ def fit_brightening(
     bend, slope, _ = np.polyfit(BRIGHTENINGS, misfits, 2)
     least = -slope / (2 * bend) if bend > 0 else 0.0
     return float(np.clip(least, 0.0, BRIGHTENINGS[-1]))
+
+
+def _place_terms(sensor: SensorSpec) -> FloatArray:
+    """Products of the coordinates of each pixel to their cubes, (rows × columns, K)."""
+    return _polynomial(position_inputs(sensor).astype(np.float64), 0, 3)
+
+
+def _observed(
+    changes: Sequence[NDArray[np.float32]],
+    presses: Sequence[BallPress],
+    pixels: Sequence[NDArray[np.intp]],
+    profiles: ProfileTable,
+    sensor: SensorSpec,
+) -> tuple[NDArray[np.intp], FloatArray, FloatArray]:
+    """Pixels near all presses (N,), their terms (N, 13) and their changes of colour (N, 3)."""
+    terms = [
+        _terms(press, near, profiles, sensor) for press, near in zip(presses, pixels, strict=True)
+    ]
+    colours = [change[near] for change, near in zip(changes, pixels, strict=True)]
+    return np.concatenate(pixels), np.concatenate(terms), np.concatenate(colours).astype(np.float64)
+
+
+def _products(terms: FloatArray, places: FloatArray) -> FloatArray:
+    """Each term times each of the place: (N, M), (N, K) -> (N, M × K)."""
+    return (terms[:, :, None] * places[:, None, :]).reshape(len(terms), -1)
 
 
 def _ridge(design: FloatArray, wanted: FloatArray, penalty: FloatArray) -> FloatArray:
@@ -179,15 +196,9 @@ def _fit_coefficients(
     sensor: SensorSpec,
 ) -> FloatArray:
     """Ridge regression of each colour: (terms, position terms, 3)."""
-    features = []
-    for press, near in zip(presses, pixels, strict=True):
-        terms = _terms(press, near, profiles, sensor)
-        features.append((terms[:, :, None] * places[near][:, None, :]).reshape(len(near), -1))
-    design, lit = np.concatenate(features), np.concatenate([light[near] for near in pixels])
-    colours = np.concatenate(
-        [change[near] for change, near in zip(changes, pixels, strict=True)]
-    ).astype(np.float64)
-    penalty = np.ones((design.shape[1] // places.shape[1], places.shape[1]))
+    at, terms, colours = _observed(changes, presses, pixels, profiles, sensor)
+    design, lit = _products(terms, places[at]), light[at]
+    penalty = np.ones((terms.shape[1], places.shape[1]))
     penalty[:, :3] = _EVEN
     solved = []
     for colour in range(3):

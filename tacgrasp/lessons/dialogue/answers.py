@@ -165,12 +165,10 @@ def _shown(asked: Check, scene: AskedScene) -> str:
 
     What is compared with a number is told in the unit of that.
     """
-    tested = _TESTED.fullmatch(asked.test)
-    units = {tested["name"]: tested["unit"]} if tested else {}
-    clauses = [
-        fact(name, scene, unit if can_be_in(name, unit := units.get(name, "")) else "")[1]
-        for name in asked.shows
-    ]
+    units = {}
+    if (tested := _TESTED.fullmatch(asked.test)) and can_be_in(tested["name"], tested["unit"]):
+        units[tested["name"]] = tested["unit"]
+    clauses = [fact(name, scene, units.get(name, ""))[1] for name in asked.shows]
     if asked.needed_n:
         needed = float(Expression(asked.needed_n).evaluate(scene.values()).value or 0.0)
         clauses.insert(0, f"it needs {needed:.2f} N")

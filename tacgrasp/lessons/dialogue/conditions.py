@@ -21,6 +21,8 @@ from tacgrasp.lessons.dialogue.quantities import MULTIPLIED, QUANTITIES, TIMES
 from tacgrasp.lessons.dialogue.scene import HOLDING_N_PER_G
 
 IN_BAND = "band_low_n <= force_n <= band_high_n"
+OUTSIDE_BAND = "max(0, band_low_n - force_n, force_n - band_high_n)"
+"""How far the force is outside of its band [N]."""
 
 _BAND_MIDDLE = QUANTITIES["band_middle"].truth
 _FORCE_STATES: Mapping[str, tuple[str, str]] = {

@@ -16,6 +16,7 @@ from tacgrasp.lessons.dialogue.calculations.asked import AskedWords, usual
 from tacgrasp.lessons.dialogue.calculations.phrases import ABOVE, BELOW, IS
 from tacgrasp.lessons.dialogue.calculations.quantity_names import is_band
 from tacgrasp.lessons.dialogue.calculations.terms import Term
+from tacgrasp.lessons.dialogue.conditions import OUTSIDE_BAND
 
 _APART = r"(?:away|apart|off)? ?from|off|differs? from|deviates? from"
 _GET = (
@@ -308,8 +309,7 @@ def into_band(asked: AskedWords) -> Term | None:
     found = _INTO_BAND.fullmatch(asked.words)
     if found is None or not is_band(found["band"]):
         return None
-    change = "max(0, band_low_n - force_n, force_n - band_high_n)"
-    return Term(expression=change, dimension="force", words="")
+    return Term(expression=OUTSIDE_BAND, dimension="force", words="")
 
 
 def _difference(a: Term, b: Term) -> Term:

@@ -190,7 +190,9 @@ def binned(question: str, asked: AskedWords) -> str | None:
     listed = {word for each in _LISTED.findall(asked.words) for word in each if word}
     labelled = all(match["label"] in listed or _is_label(question, match) for match in row)
     told = _chosen(asked, row) if len(row) > 1 and labelled else None
-    return told or _range(question)
+    if told or len(asked.numbers) < 2:
+        return told
+    return _range(question)
 
 
 def _range(question: str) -> str | None:

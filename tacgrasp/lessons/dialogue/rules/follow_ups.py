@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import re
 
-from tacgrasp.lessons.dialogue.conditions import IN_BAND
+from tacgrasp.lessons.dialogue.conditions import IN_BAND, OUTSIDE_BAND
 from tacgrasp.lessons.dialogue.expression import Expression
 from tacgrasp.lessons.dialogue.meaning import Amount, Calculated, Check, Meaning
 
@@ -22,7 +22,6 @@ _BY_HOW_MUCH = re.compile(
     re.I,
 )
 _COMPARED = re.compile(r"(?:not \()?(?P<a>[^<>='\"]+?) [<>]=? (?P<b>[^<>='\"]+?)\)?")
-_OUT_OF_BAND = "max(0, band_low_n - force_n, force_n - band_high_n)"
 _UNITS = {"n": "N", "mm": "mm", "g": "g", "percent": "%", "mm2": "mm²"}
 """Units by the last part of a name of a scene."""
 
@@ -33,8 +32,8 @@ _PREPOSITION = (
 _GOES_ON = re.compile(
     rf"(?:and|but|or|what about|how about)[, ]+(?P<rest>(?P<word>{_PREPOSITION})\b.+)", re.I
 )
-_QUANTITIES = {"depth": "depth", "force": "force", "area": "area", "mass": "mass", "limit": "limit"}
-"""Quantities that a pronoun may stand for, as questions call them."""
+_CALLED_SO = ("depth", "force", "area", "mass", "limit")
+"""Quantities that a pronoun may stand for: questions call them by these names."""
 
 _PRONOUN = re.compile(r"\b(?:it|that|this)\b", re.I)
 _BARE_NUMBER = re.compile(r"(?<=\s)(?P<number>\d+(?:\.\d+)?)(?=[?.! ]*$)")
@@ -51,7 +50,7 @@ def difference_of(asked: Meaning) -> Calculated | None:
         return None
     condition = asked.condition if isinstance(asked, Check) else asked.truth
     if condition.removeprefix("not (").removesuffix(")") == IN_BAND:
-        return Calculated(truth=_OUT_OF_BAND, unit="N")
+        return Calculated(truth=OUTSIDE_BAND, unit="N")
     if (found := _COMPARED.fullmatch(condition)) is None:
         return None
     truth = f"abs({found['a']} - ({found['b']}))"
@@ -78,7 +77,7 @@ def leaves_unit_out(question: str) -> bool:
 
 def with_quantity_of(question: str, asked: Meaning) -> str:
     """A follow-up that leaves the unit out, in the words of the number before it; '' of others."""
-    if not isinstance(asked, Amount) or (name := _QUANTITIES.get(asked.quantity)) is None:
+    if not isinstance(asked, Amount) or asked.quantity not in _CALLED_SO:
         return ""
-    about = _PRONOUN.sub(f"the {name}", question, count=1)
+    about = _PRONOUN.sub(f"the {asked.quantity}", question, count=1)
     return _BARE_NUMBER.sub(rf"\g<number> {asked.unit}", about)
