@@ -34,14 +34,14 @@ TARGET_FACTOR = 1.1
 frame to frame, and a third of the way from the least force to the bruise of the ripest berry."""
 
 
-class Aim:
-    """The target of each step of an episode: the contract, with its force band as it is needed."""
+class TargetTracker:
+    """Follows what is felt of the object, and tells the target of each step of an episode."""
 
     def __init__(self) -> None:
         self._needs = ""
         self._object: TouchedObject | None = None
 
-    def at(
+    def contract_at(
         self, contract: Contract, observation: Observation, reach_n: float | None = None
     ) -> tuple[Contract, str]:
         """The contract of a step, and what was felt of the object in words.

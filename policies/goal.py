@@ -1,6 +1,6 @@
 """Numeric goal of a step, for the teacher and for the lessons of the language model.
 
-In an episode it is a part of the contract (``policies.contract.target_of``).
+In an episode it is a part of the contract (``policies.contract_steps.target_of``).
 """
 
 from __future__ import annotations

@@ -53,6 +53,8 @@ MAX_INCREASE, MIN_DECREASE = 2.0, 0.5
 a third, so twice the force of a light grip stays far below the next bruise."""
 
 AT_LIMIT = "the force is already at its limit"
+
+_NOTHING = "nothing"
 """Note of a change of force that sent nothing because of the limits."""
 
 OVER = 1.1
@@ -160,6 +162,11 @@ class Executed:
     dry_run: bool
     started_s: float
     ended_s: float
+
+    @property
+    def sent_nothing(self) -> bool:
+        """Whether no command went to a device."""
+        return self.sent == _NOTHING
 
 
 def rotate(rotvec_rad: NDArray[np.float64], vector: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -444,7 +451,7 @@ class Executor:
         return self._done(
             primitive,
             asked=f"{request_n:.3g} N",
-            sent="nothing" if unchanged else f"{self._force_n:.3g} N",
+            sent=_NOTHING if unchanged else f"{self._force_n:.3g} N",
             notes=tuple(notes),
             opened=False,
             started=started,
@@ -478,7 +485,7 @@ class Executor:
             note = "" if self._dry_run else self._grip(force.value).clamped
             return f"close with {self._force_n or force.value:.3g} N", (force.note, note)
         if self._dry_run:
-            return "nothing", ()
+            return _NOTHING, ()
         self._take_reference()
         first_n = max(self._approach_step_n, self._limits.min_force_n)
         state = self._grip(min(first_n, force.value, self._gripper.most_n))
@@ -546,7 +553,7 @@ class Executor:
         return Executed(
             primitive=primitive,
             asked=asked,
-            sent="nothing" if self._dry_run else sent,
+            sent=_NOTHING if self._dry_run else sent,
             reached=self._arm.pose(),
             force_n=self._force_n,
             width_m=state.width_m,

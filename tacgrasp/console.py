@@ -303,7 +303,7 @@ def _remarks(record: StepRecord, width: int) -> list[Text]:
 
 
 def _sent_text(executed: Executed) -> str:
-    if executed.sent == "nothing":
+    if executed.sent_nothing:
         return "nothing sent"
     if executed.primitive is not None and executed.primitive.value.endswith("_force"):
         return f"commanded {executed.force_n:.2f} N"

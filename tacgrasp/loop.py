@@ -28,7 +28,7 @@ from collections.abc import Callable, Sequence
 from itertools import count
 
 from cltp import TouchError
-from policies import Decision, Policy, PolicyError, checked
+from policies import Decision, Policy, PolicyError
 from primitives import LimitError, Primitive, RobotError
 from primitives.contract import Contract
 from primitives.execution import AT_LIMIT, Executed, Executor
@@ -40,12 +40,12 @@ from tacgrasp.runtime.outcome import EndOfEpisode, EndReason, Observer, Outcome,
 from tacgrasp.runtime.reflex_loop import make_reflex
 from tacgrasp.runtime.shutdown import Ending, close
 from tacgrasp.runtime.steps import (
-    NOTHING_TOUCHES,
+    NO_CONTACT_DECISION,
     Recorder,
     Step,
     Steps,
+    decide,
     read_observation,
-    within,
 )
 
 
@@ -75,7 +75,7 @@ def run_episode(
     step: Step | None = None
     verification: Verification | None = None
     if sense is not None:
-        sense.survive = steps.survive
+        sense.retry_or_raise = steps.retry_or_raise
     try:
         policy.start()
         executor.grasp()
@@ -85,17 +85,16 @@ def run_episode(
                 try:
                     observation = read_observation(rig, sense)
                     if observation.in_contact is False:
-                        decision = NOTHING_TOUCHES
+                        decision = NO_CONTACT_DECISION
                     else:
-                        contract = steps.hear_objection(executor, observation, contract)
+                        contract = steps.soften_if_soft(executor, observation, contract)
                         seen = observation.for_policy(steps.elapsed_s)
-                        aimed = steps.aim(executor, seen, contract)
+                        target = steps.with_target(executor, seen, contract)
                         with steps.deciding(contract, observation):
-                            decision = checked(policy.decide(seen, aimed))
-                        decision = within(aimed, decision, seen)
+                            decision = decide(policy, seen, target)
                     break
                 except (TouchError, PolicyError) as error:
-                    steps.survive(error, attempt)
+                    steps.retry_or_raise(error, attempt)
             step = Step(observation=observation, decision=decision)
             if step.declared:
                 steps.record(step)
@@ -104,7 +103,7 @@ def run_episode(
                 raise EndOfEpisode(reason, verification.message)
             if decision.action is None:
                 steps.record(step, note=f"nothing moved: {decision.reason}")
-                steps.count_blank(decision)
+                steps.ask_again(decision)
                 continue
             _check_bounds(step, decision.action, steps, config)
             executed = executor.execute(decision.action)
@@ -135,7 +134,7 @@ def run_episode(
 
 def _check_bounds(step: Step, action: Primitive, steps: Steps, config: RunConfig) -> None:
     """End the episode in place of a second empty closing or an action beyond ``max_steps``."""
-    if step.decision is NOTHING_TOUCHES and steps.num_empty:
+    if step.decision is NO_CONTACT_DECISION and steps.num_empty:
         steps.record(step, note="second closing on nothing: not executed")
         raise EndOfEpisode(EndReason.CONTACT_LOST, "the fingers closed on nothing twice in a row")
     if steps.num_actions >= config.loop.max_steps:
@@ -148,7 +147,7 @@ def _check_sent(executed: Executed, decision: Decision, steps: Steps) -> None:
     """Bound what sends nothing: the next observation would be the same, for ever."""
     if executed.dry_run:
         raise EndOfEpisode(EndReason.DRY_RUN, "one decision was made, nothing was sent")
-    if executed.sent == "nothing" and AT_LIMIT in executed.clamped:
+    if executed.sent_nothing and AT_LIMIT in executed.clamped:
         raise EndOfEpisode(EndReason.LIMIT, "; ".join(executed.clamped))
-    if executed.sent == "nothing":  # the goal leaves no room for the change
-        steps.count_blank(decision)
+    if executed.sent_nothing:  # the goal leaves no room for the change
+        steps.ask_again(decision)

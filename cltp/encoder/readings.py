@@ -1,4 +1,4 @@
-"""HeadReadings of the state heads in probabilities and units, as everybody uses them.
+"""Readings of the state heads in probabilities and units, as everybody uses them.
 
 The loop, ``tacgrasp describe`` and the language model are given the same readings. Not here: the
 words and warnings that follow from them (``cltp.encoder.reader``).
@@ -64,7 +64,7 @@ class HeadReadings(NamedTuple):
 def readings_of(
     output: HeadsOutput, factor: float | Tensor = 1.0, spread: float | Tensor = 0.0
 ) -> HeadReadings:
-    """HeadReadings out of the heads' output.
+    """Readings out of the heads' output.
 
     Args:
         output: Output of ``StateHeads`` for B contacts.

@@ -53,7 +53,7 @@ class ReadingTokens(nn.Module):
         self.register_buffer("periods", torch.tensor(PERIODS), persistent=False)
 
     def forward(self, readings: HeadReadings, given: Tensor | None = None) -> Tensor:
-        """HeadReadings of B contacts to tokens (B, 6, D).
+        """Readings of B contacts to tokens (B, 6, D).
 
         Args:
             readings: The readings.

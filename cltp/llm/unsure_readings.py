@@ -1,4 +1,4 @@
-"""HeadReadings with errors and gaps, for learning: the language model is to trust its touch too.
+"""Readings with errors and gaps, for learning: the language model is to trust its touch too.
 
 Heads that were always right would be all that a language model listens to. So some readings are
 left out, some have one error, some are another contact's, and those that stand for contacts without
@@ -95,7 +95,7 @@ def _sure(classes: int, rng: np.random.Generator, right: int | None = None) -> n
 
 
 def drawn_readings(states: Sequence[ContactState], rng: np.random.Generator) -> HeadReadings:
-    """HeadReadings such as good heads might give of contacts, around their true states."""
+    """Readings such as good heads might give of contacts, around their true states."""
     words: list[list[np.ndarray]] = [[] for _ in CLASSES]
     for state in states:
         for column, (name, classes) in enumerate(CLASSES.items()):

@@ -1,4 +1,4 @@
-"""progress.Progress of a training: bars on a terminal, a plain line every half minute elsewhere."""
+"""Progress of a training: bars on a terminal, a plain line every half minute elsewhere."""
 
 from __future__ import annotations
 

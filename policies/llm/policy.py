@@ -345,9 +345,10 @@ def drafted(
 def with_felt_force(readings: HeadReadings, felt: Interval | None) -> HeadReadings:
     """Readings of one contact with the force as it is felt directly.
 
-    The target of a step follows from that force (``policies.contract_steps.Aim``), so that both err
-    alike: with the heads' own force, as good by itself, one grip in twenty bruises. Where the two
-    contradict each other, as on contacts that the pad's edge cuts, the heads' force is kept.
+    The target of a step follows from that force (``policies.contract_steps.TargetTracker``), so
+    that both err alike: with the heads' own force, as good by itself, one grip in twenty bruises.
+    Where the two contradict each other, as on contacts that the pad's edge cuts, the heads' force
+    is kept.
 
     Args:
         readings: A batch of one.

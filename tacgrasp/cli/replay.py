@@ -79,7 +79,7 @@ def main(argv: Sequence[str]) -> int:
 
 def _decide(episode: Episode, flags: ReplayFlags, console: Console) -> int:
     from tacgrasp.console import working
-    from tacgrasp.playback.replay import config_of, contract_in, differences
+    from tacgrasp.playback.replay import asked_policy, config_of, contract_in, differences
     from tacgrasp.policy_factory import check_remote_options, make_policy
 
     name = flags.policy or episode.header.policy
@@ -89,7 +89,7 @@ def _decide(episode: Episode, flags: ReplayFlags, console: Console) -> int:
     config = config.model_copy(update={n: each for n, each in given.items() if each is not None})
     with working(f"loading the policy {name}"):
         policy = make_policy(name, config)
-    num_decisions = sum(step.decision is not None for step in episode.steps)
+    num_decisions = sum(map(asked_policy, episode.steps))
     num_different = 0
     for difference in differences(episode, policy, contract_in(episode, config)):
         num_different += 1

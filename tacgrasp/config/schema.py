@@ -139,6 +139,15 @@ class VerifyConfig(SettingsBase):
     min_area_ratio: Number = Field(default=0.6, ge=0, le=1)
     min_depth_ratio: Number = Field(default=0.6, ge=0, le=1)
 
+    @model_validator(mode="after")
+    def _check_lift_off(self) -> VerifyConfig:
+        if self.lift_off_mm > self.lift_mm:
+            raise ValueError(
+                f"lift_off_mm {self.lift_off_mm:g} is above lift_mm {self.lift_mm:g} [mm]; the "
+                "slow rise is the lift's first part"
+            )
+        return self
+
 
 class ArmConfig(SettingsBase):
     """Limits of every command to the arm.

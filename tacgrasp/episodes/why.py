@@ -61,7 +61,7 @@ def _trouble_in(step: StepRecord) -> tuple[str, str] | None:
     decision, executed = step.decision, step.executed
     if decision is not None and decision.reason.startswith("beyond the contract"):
         return "refusal", decision.reason
-    if executed is not None and executed.sent == "nothing" and not executed.dry_run:
+    if executed is not None and executed.sent_nothing and not executed.dry_run:
         return "refusal", "; ".join(executed.clamped) or f"{executed.asked}: nothing was sent"
     if "not executed" in step.note:
         return "refusal", step.note

@@ -13,8 +13,7 @@ from pathlib import Path
 from pydantic import ValidationError
 
 from cltp import TouchError
-from policies import Observation, Policy, PolicyError
-from policies.contract_steps import Aim
+from policies import Policy, PolicyError
 from primitives.contract import Contract
 from primitives.devices import Pose
 from primitives.execution import Executed
@@ -28,7 +27,7 @@ from tacgrasp.episodes.codec import to_json
 from tacgrasp.rig.factory import make_executor
 from tacgrasp.rig.protocols import Rig
 from tacgrasp.runtime.outcome import EndReason
-from tacgrasp.runtime.steps import NOTHING_TOUCHES, within
+from tacgrasp.runtime.steps import NO_CONTACT_DECISION, Readings, decide
 
 SOFT_SPEED_M_S = 0.02
 """Speed of the move to the start of the episode. Our choice: slow enough to be stopped by hand."""
@@ -83,8 +82,13 @@ def contract_in(episode: Episode, config: RunConfig) -> Contract:
     return episode.header.contract or contract_of(config)
 
 
+def asked_policy(step: StepRecord) -> bool:
+    """Whether the policy decided a step; without contact the runtime does."""
+    return step.phase is StepPhase.LOOP and step.decision not in (None, NO_CONTACT_DECISION)
+
+
 def differences(episode: Episode, policy: Policy, contract: Contract) -> Iterator[Difference]:
-    """Ask a policy again for every recorded decision, in order.
+    """Ask a policy again for each recorded decision of one, in order, under that step's target.
 
     Yields:
         Every step with another text, action or success.
@@ -93,15 +97,14 @@ def differences(episode: Episode, policy: Policy, contract: Contract) -> Iterato
         LimitError: The contract is refused.
     """
     policy.start()
-    aim = Aim()
     for step in episode.steps:
         contract = step.contract or contract
-        if step.phase is not StepPhase.LOOP or step.decision in (None, NOTHING_TOUCHES):
-            continue  # without contact the runtime decided, not the policy
+        if not asked_policy(step):
+            continue
+        target = contract if step.need is None else replace(contract, force_n=step.need.force_n)
         try:
-            observation = _observation(step)
-            aimed, _ = aim.at(contract, observation)
-            decision = within(aimed, policy.decide(observation, aimed), observation)
+            elapsed_s = step.stamp.monotonic_s - episode.steps[0].stamp.monotonic_s
+            decision = decide(policy, _readings(step).for_policy(elapsed_s), target)
         except (TouchError, PolicyError) as error:
             yield Difference(index=step.index, text=str(error))
             continue
@@ -114,13 +117,14 @@ def differences(episode: Episode, policy: Policy, contract: Contract) -> Iterato
             yield Difference(index=step.index, text="; ".join(texts))
 
 
-def _observation(step: StepRecord) -> Observation:
-    gripper = step.gripper
-    return Observation(
+def _readings(step: StepRecord) -> Readings:
+    return Readings(
         cloud=step.cloud,
+        tcp_pose=step.tcp_pose,
+        gripper=step.gripper,
+        stamp=step.stamp,
+        started_s=math.nan,
         in_contact=step.in_contact,
-        width_m=gripper.width_m,
-        commanded_force_n=gripper.force_n,
         felt_force_n=step.felt_force_n,
         shear=step.shear,
     )

@@ -74,17 +74,18 @@ class GelSense:
 
     The reference follows slow drift (``cltp.tactile.contact.contact_test.UntouchedGel``): in every
     frame that is clearly untouched, and around a light contact. What ``read`` gives is without it.
+
+    Args:
+        sensor: A connected sensor.
+
+    Attributes:
+        retry_or_raise: Called with each failure to read and its number, from 1; raises when it was
+            one too many. By default every failure is.
     """
 
     def __init__(self, sensor: TactileSensor) -> None:
-        """Take a connected sensor.
-
-        Attributes:
-            survive: Called with each failure to read and its number, from 1; raises when it was one
-                too many. By default every failure is.
-        """
         self._sensor = sensor
-        self.survive: Callable[[TouchError, int], None] = _raise
+        self.retry_or_raise: Callable[[TouchError, int], None] = _raise
         self._untouched: UntouchedGel | None = None
         self._cloud: TactileCloud | None = None  # the last one tested, with its result
         self._in_contact: bool | None = None
@@ -144,7 +145,7 @@ class GelSense:
             try:
                 return call()
             except TouchError as error:
-                self.survive(error, attempt)
+                self.retry_or_raise(error, attempt)
         raise AssertionError("unreachable")
 
     def in_contact(self, cloud: TactileCloud) -> bool | None:

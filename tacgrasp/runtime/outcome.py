@@ -18,9 +18,9 @@ class EndReason(StrEnum):
     UNVERIFIED = "unverified"  # declared, but the lift showed otherwise
     MAX_STEPS = "max_steps"  # as many actions as the task allows
     TIMEOUT = "timeout"  # as much time as the task allows
-    NO_ACTION = "no_action"  # the policy kept naming no action, or two
+    NO_ACTION = "no_action"  # decisions in a row moved nothing
     LIMIT = "limit"  # travel, workspace or force: a command was refused
-    CONTACT_LOST = "contact_lost"  # the second reset
+    CONTACT_LOST = "contact_lost"  # the fingers closed on nothing twice in a row
     DRY_RUN = "dry_run"  # one decision was made, nothing was sent
     FAULT = "fault"  # robot, sensor, policy or recorder failed
     OPERATOR = "operator"  # a person stopped it

@@ -51,7 +51,8 @@ hundred frames, of which no ten are independent."""
 class ReflexHold:
     """One hold: its terms, what the frames tell of it, and the reflex's memory.
 
-    Another thread may set what is asked of it, call ``rest``, and read the rest at any time.
+    Another thread may set what is asked of it, call ``rest`` and ``hang``, and read all else at any
+    time.
 
     Args:
         terms: Force terms of the contract that is kept.
@@ -88,6 +89,7 @@ class ReflexHold:
     ) -> None:
         self.terms, self.memory = terms, ReflexMemory(floor_n=floor_n)
         self.is_found, self.is_rocked, self._rests = floor_n > 0, False, False
+        self._hangs = False
         self.standing = self.hanging = False
         self.ahead_n = 0.0
         self.reserve: Reserve | None = None
@@ -123,9 +125,11 @@ class ReflexHold:
         return 0.0 if self._indentation is None else self._indentation.spread_mm
 
     def hang(self) -> None:
-        """The object hangs, at rest until the next motion: its place is measured from now on."""
-        self.hanging = True
-        self._quiet, self._quiet_n, self._indentation = [], [], None
+        """The object hangs, at rest until the next motion: its place is measured from now on.
+
+        The next frame begins it: this may be called while another thread reads one.
+        """
+        self._hangs = True
 
     def rest(self) -> None:
         """A motion has ended: what is measured from the next frame on is of where it rests."""
@@ -144,6 +148,9 @@ class ReflexHold:
         if self._rests:
             self._rests = False
             self.renew()
+        if self._hangs:
+            self._hangs, self.hanging = False, True
+            self._quiet, self._quiet_n, self._indentation = [], [], None
         self.newest_n = None if field is None else self._feel_newest(field)
         self.cues = None if field is None else self._see(field, commanded_n)
         if field is None or self.cues is None:

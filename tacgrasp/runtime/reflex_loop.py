@@ -78,11 +78,13 @@ class ReflexLoop:
         if felt is None or self._executor.force_n <= 0 or self._is_absent():
             yield
             return
-        with self._beating(self._hold(contract, felt, rested)):
-            yield
-            if isinstance(self._rig.clock, CallingClock):
-                self._rig.clock.sleep(DECISION_S)
-        self._ran = self._ran or bool(self._samples or self._num_blind)
+        try:
+            with self._beating(self._hold(contract, felt, rested)):
+                yield
+                if isinstance(self._rig.clock, CallingClock):
+                    self._rig.clock.sleep(DECISION_S)
+        finally:
+            self._ran = self._ran or bool(self._samples or self._num_blind)
 
     @contextmanager
     def keeping(

@@ -17,8 +17,8 @@ from cltp.sensing.frames import Frame, jpeg_of
 from cltp.tactile.cloud import Stamp, TactileCloud
 from cltp.tactile.measure import contact_state
 from cltp.tactile.shear.field import ShearField
-from policies import Decision, Observation, PolicyError
-from policies.contract_steps import Aim, beyond, softened
+from policies import Decision, Observation, Policy, PolicyError, checked
+from policies.contract_steps import TargetTracker, beyond, softened
 from policies.observation import is_impossible
 from primitives import Primitive
 from primitives.contract import Contract
@@ -98,7 +98,7 @@ class Readings:
         )
 
 
-NOTHING_TOUCHES = Decision(
+NO_CONTACT_DECISION = Decision(
     text="Nothing touches the gel. Action: <reset>.",
     action=Primitive.RESET,
     success=False,
@@ -107,8 +107,16 @@ NOTHING_TOUCHES = Decision(
 """The runtime's own decision without contact, in place of any policy's."""
 
 
-def within(contract: Contract, decision: Decision, observation: Observation) -> Decision:
-    """The decision, or none in its place where it goes beyond the contract."""
+def decide(policy: Policy, observation: Observation, contract: Contract) -> Decision:
+    """A policy's decision, checked and held to the contract, live as in replays and servers.
+
+    What goes beyond the contract becomes no action and no success, with the reason.
+
+    Raises:
+        PolicyError: The policy failed, or its reply is no decision that can be carried out.
+        TouchError: It can't use the cloud.
+    """
+    decision = checked(policy.decide(observation, contract))
     if observation.in_contact is None:
         state = None
     else:
@@ -200,11 +208,11 @@ class Steps:
         self.force_residual: float | None = None
         self.gain: GainEstimate | None = None
         self.started_s = rig.clock.monotonic()
-        self._num_blanks = 0
+        self._num_idle = 0
         self._last: Step | None = None
         self._notes: list[str] = []
         self._new_contract: Contract | None = None
-        self._aim = Aim()
+        self._target = TargetTracker()
         self._need: Need | None = None
 
     @property
@@ -225,7 +233,7 @@ class Steps:
                 f"{self._bounds.timeout_s:g})",
             )
 
-    def hear_objection(
+    def soften_if_soft(
         self, executor: Executor, observation: Readings, contract: Contract
     ) -> Contract:
         """The contract after what is felt: a soft contact is held to the terms of soft ones."""
@@ -239,15 +247,15 @@ class Steps:
         self._new_contract = held
         return held
 
-    def aim(self, executor: Executor, seen: Observation, contract: Contract) -> Contract:
+    def with_target(self, executor: Executor, seen: Observation, contract: Contract) -> Contract:
         """The contract of this step: its force band is the target that this object needs."""
-        aimed, words = self._aim.at(contract, seen, executor.reach_n)
+        aimed, words = self._target.contract_at(contract, seen, executor.reach_n)
         if words:
             executor.aim_at(aimed)
             self._need = Need(force_n=aimed.terms.force_n, felt=words)
         return aimed
 
-    def survive(self, error: TouchError | PolicyError, attempt: int) -> None:
+    def retry_or_raise(self, error: TouchError | PolicyError, attempt: int) -> None:
         """Note a failed attempt to read or decide and wait; the caller then tries again.
 
         Args:
@@ -276,7 +284,7 @@ class Steps:
                 observation = read_observation(self._rig, self._sense)
                 break
             except TouchError as error:
-                self.survive(error, attempt)
+                self.retry_or_raise(error, attempt)
         self.record(Step(observation=observation, phase=phase))
         return observation
 
@@ -316,8 +324,8 @@ class Steps:
         self._notes, self._new_contract, self._need = [], None, None
         self._recorder.write_step(record)
         self.num_steps += 1
-        if step.decision is not None and step.decision.action is not None:
-            self._num_blanks = 0
+        if executed is not None and not executed.sent_nothing:
+            self._num_idle = 0
         for observer in self._observers:
             observer(record)
 
@@ -357,17 +365,17 @@ class Steps:
         if step is not None and step is not self._last:
             self.record(step, note=f"cut short: {message}")
 
-    def count_blank(self, decision: Decision) -> None:
-        """Wait after a decision without one clear action; the loop then asks again.
+    def ask_again(self, decision: Decision) -> None:
+        """Count a decision that moved nothing, and wait; the loop then asks again.
 
         Raises:
             EndOfEpisode: ``no_action``: it was the last of ``max_asks`` in a row.
         """
-        self._num_blanks += 1
-        if self._num_blanks >= self._bounds.max_asks:
+        self._num_idle += 1
+        if self._num_idle >= self._bounds.max_asks:
             raise EndOfEpisode(
                 EndReason.NO_ACTION,
-                f"{self._num_blanks} decisions in a row moved nothing ({decision.reason}); "
+                f"{self._num_idle} decisions in a row moved nothing ({decision.reason}); "
                 f"the last text was: {decision.text!r}",
             )
         self._rig.clock.sleep(self._bounds.wait_s)

@@ -32,7 +32,7 @@ from primitives.contract import Contract
 from tacgrasp.base.errors import UsageError
 from tacgrasp.config.schema import RunConfig
 from tacgrasp.config.terms import contract_of
-from tacgrasp.runtime.steps import NOTHING_TOUCHES, within
+from tacgrasp.runtime.steps import NO_CONTACT_DECISION, decide
 from tacgrasp.serving.answers import ACTION_COLUMNS, answer_message
 from tacgrasp.serving.keys import is_loopback
 from tacgrasp.serving.questions import KEYS, read_question
@@ -244,10 +244,9 @@ class PolicyServer:
         if unread := unread_reason(observation):
             decision = Decision(text=f"{unread}.", action=None, success=False, reason=unread)
         elif observation.in_contact is False:
-            decision = NOTHING_TOUCHES
+            decision = NO_CONTACT_DECISION
         else:
-            decision = policy.decide(observation, contract)
-            decision = within(contract, decision, observation)
+            decision = decide(policy, observation, contract)
         message = answer_message(decision, contract)
         message["server_timing"] = {"infer_ms": 1e3 * (time.perf_counter() - began_s)}
         return message

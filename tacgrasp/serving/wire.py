@@ -30,7 +30,7 @@ MAX_ITEMS = 1000
 """Most entries of a mapping or list."""
 
 MAX_TEXT_BYTES = 8000
-"""Longest text; one of ``policies.extraction.MAX_CHARACTERS`` takes at most that."""
+"""Longest text: four bytes for each of its ``policies.extraction.extraction.MAX_CHARACTERS``."""
 
 DTYPES = frozenset({"|b1", "|u1", "<i4", "<i8", "<f4", "<f8"})
 """Types of arrays that are read."""

@@ -23,6 +23,9 @@ RINGS = (0.0, 0.6, 1.1, 1.6, 2.2, 3.2)
 SMALL = 1e-6
 """Least divisor."""
 
+BODY_LEVEL = 0.3
+"""Fraction of the depth above which the volume counts. Our choice: above the rim and the noise."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class PointGrid:
@@ -108,7 +111,7 @@ class ContactShape:
         height, depth = above_level(height_mm)
         if depth <= SMALL:
             return None
-        body = np.clip(height - 0.3 * depth, 0.0, None)
+        body = np.clip(height - BODY_LEVEL * depth, 0.0, None)
         total = float(body.sum())
         if total <= 0:
             return None

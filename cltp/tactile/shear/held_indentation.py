@@ -17,12 +17,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from cltp.tactile.cloud import FloatArray
-from cltp.tactile.shear.contact_shape import above_level, grid_of
+from cltp.tactile.shear.contact_shape import BODY_LEVEL, above_level, grid_of
 from cltp.tactile.shear.contact_shear import HEIGHT_MEMORY
 from cltp.tactile.shear.field import ShearField
-
-LEVEL = 0.3
-"""Fraction of the depth above which the volume counts, as ``contact_shear`` has it."""
 
 CONTACT = 0.1
 """Fraction of the depth from which a point belongs to the contact or its rim. Our choice."""
@@ -116,7 +113,7 @@ class HeldIndentation:
         0 and None where nothing is indented.
         """
         height, depth_mm = above_level(height_mm)
-        body = np.clip(height - LEVEL * max(depth_mm, 0.0), 0.0, None)
+        body = np.clip(height - BODY_LEVEL * max(depth_mm, 0.0), 0.0, None)
         total = float(body.sum())
         if depth_mm <= 0 or total <= 0:
             return 0.0, None

@@ -40,7 +40,7 @@ from tacgrasp.policy_factory import default_weights, make_policy
 from tacgrasp.rig.gel_sense import GelSense
 from tacgrasp.run import run_unrecorded
 from tacgrasp.runtime.outcome import EndReason, Outcome
-from tacgrasp.runtime.steps import NOTHING_TOUCHES
+from tacgrasp.runtime.steps import NO_CONTACT_DECISION
 
 POLICIES = ("llm", "rules")
 """Policies that feel; the others do not decide by touch."""
@@ -126,7 +126,7 @@ class Watch:
         if record.decision is None:  # verification
             return
         touched = self._sense.was_touched(record.cloud)
-        self.false_reset |= record.decision is NOTHING_TOUCHES and touched
+        self.false_reset |= record.decision is NO_CONTACT_DECISION and touched
         force_n = record.gripper.force_n  # commanded at the observation: by the first grasp, too
         executed = record.executed
         if executed is not None and executed.primitive is not None:

@@ -122,7 +122,7 @@ class _Reader:
 
     @torch.inference_mode()
     def read(self, points: NDArray[np.float32], sensor_name: str) -> HeadReadings:
-        """HeadReadings of clouds (B, N, 3), each of a unit of its own."""
+        """Readings of clouds (B, N, 3), each of a unit of its own."""
         scales = [
             drawn_force_calibration(sensor_name, self.seed + place).scale
             for place in range(len(points))

@@ -89,6 +89,13 @@ UNITS: Mapping[str, Unit] = {
 }
 """Units by symbol. Grams also stand for the force that they weigh."""
 
+_UNIT_OF_ENDING = {"mm": "mm", "mm2": "mm²", "n": "N", "percent": "%", "g": "g"}
+
+
+def unit_of_name(name: str) -> str:
+    """Unit of a name of ``AskedScene.values``, which ends with it; '' of a word."""
+    return _UNIT_OF_ENDING.get(name.rpartition("_")[2], "")
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Quantity:

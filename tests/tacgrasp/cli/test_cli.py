@@ -299,6 +299,16 @@ def test_deciding_again_reproduces_the_episode_exactly(episode: Path, capsys: Ca
     assert "4 decisions, 0 differ" in capsys.readouterr().out
 
 
+def test_a_target_that_the_limit_lowers_is_decided_again_alike(
+    tmp_path: Path, capsys: Capture
+) -> None:
+    words = "Pick the strawberry, never above 0.9 N"
+    run = ["run", "--task", "strawberry", "--policy", "rules", "--seed", "6"]
+    assert main([*run, "--instruction", words, "--record", str(tmp_path)]) == 0
+    assert main(["replay", "--decide", str(next(tmp_path.glob("*.mcap")))]) == 0
+    assert " 0 differ" in capsys.readouterr().out
+
+
 def test_another_policy_differs_and_says_where(episode: Path, capsys: Capture) -> None:
     assert main(["replay", "--decide", "--policy", "fixed_force", str(episode)]) == 1
     printed = capsys.readouterr().out

@@ -79,6 +79,10 @@ BAD_FILES = {
     "unknown field": (MINIMAL + "instuction: x\n", "unknown field instuction; did you mean"),
     "unknown field inside": (MINIMAL + "loop: {max_step: 3}\n", "loop.max_step; .*max_steps"),
     "wrong unit": (MINIMAL + "verify: {lift_m: 0.04}\n", "verify.lift_m; did you mean lift_mm"),
+    "slow rise above the lift": (
+        MINIMAL + "verify: {lift_mm: 5, lift_off_mm: 10}\n",
+        "lift_off_mm 10 is above lift_mm 5",
+    ),
     "metres": (MINIMAL + "verify: {lift_mm: 0.04}\n", r"verify.lift_mm .*\[mm\], got 0.04"),
     "text for a number": (MINIMAL + "loop: {timeout_s: soon}\n", r"timeout_s .*\[s\], got 'soon'"),
     "number in quotes": (MINIMAL + "loop: {timeout_s: '9'}\n", "timeout_s .*got '9'"),

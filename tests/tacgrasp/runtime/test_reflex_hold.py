@@ -99,6 +99,16 @@ def test_pads_that_rise_along_a_standing_object_do_not_creep(hold, see):
     assert max(see(hold, 1.0 + creep(1.0))) > 0
 
 
+def test_what_hangs_is_measured_from_the_next_frame_on(hold, see):
+    see(hold, np.zeros(QUIET_FRAMES))
+    hold.hang()  # while another thread may be reading a frame
+    assert hold.indented_mm is not None
+    see(hold, np.zeros(1))
+    assert hold.indented_mm is None
+    see(hold, np.zeros(QUIET_FRAMES - 1))
+    assert hold.indented_mm is not None
+
+
 def test_what_noise_makes_of_the_place_of_a_light_contact_is_no_creep(hold, see):
     assert max(see(hold, np.zeros(1000), depth_mm=0.03, noise_mm=0.015)) < 0
 

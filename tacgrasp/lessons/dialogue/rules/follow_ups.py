@@ -14,6 +14,7 @@ import re
 from tacgrasp.lessons.dialogue.conditions import IN_BAND, OUTSIDE_BAND
 from tacgrasp.lessons.dialogue.expression import Expression
 from tacgrasp.lessons.dialogue.meaning import Amount, Calculated, Check, Meaning
+from tacgrasp.lessons.dialogue.quantities import unit_of_name
 
 _BY_HOW_MUCH = re.compile(
     r"(?:and |but |so )?(?:by (?:how much|what|which margin|what margin|what amount)|how much"
@@ -22,8 +23,6 @@ _BY_HOW_MUCH = re.compile(
     re.I,
 )
 _COMPARED = re.compile(r"(?:not \()?(?P<a>[^<>='\"]+?) [<>]=? (?P<b>[^<>='\"]+?)\)?")
-_UNITS = {"n": "N", "mm": "mm", "g": "g", "percent": "%", "mm2": "mm²"}
-"""Units by the last part of a name of a scene."""
 
 _PREPOSITION = (
     r"from|to|in|into|above|below|over|under|beyond|between|within|at least|at most|more than|"
@@ -58,7 +57,7 @@ def difference_of(asked: Meaning) -> Calculated | None:
         names = Expression(truth).names
     except ValueError:  # it has several comparisons
         return None
-    units = {_UNITS.get(name.rpartition("_")[2], "") for name in names}
+    units = {unit_of_name(name) for name in names}
     return Calculated(truth=truth, unit=units.pop()) if len(units) == 1 else None
 
 

@@ -2,7 +2,7 @@
 
 Strict: a number counts only with its unit, two different numbers are no answer to a question for
 one, and a text with both yes and no is neither. Not here: comparing with the truth
-(``tacgrasp.lessons.dialogue.question_scores``).
+(``tacgrasp.lessons.question_scores``).
 """
 
 from __future__ import annotations

@@ -9,9 +9,7 @@ import math
 import re
 
 from tacgrasp.lessons.dialogue.expression import Expression
-from tacgrasp.lessons.dialogue.quantities import GRAVITY_N_PER_G, UNITS
-
-_DIMENSIONS = {"_mm": "length", "_mm2": "area", "_n": "force", "_percent": "fraction", "_g": "mass"}
+from tacgrasp.lessons.dialogue.quantities import GRAVITY_N_PER_G, UNITS, unit_of_name
 
 _FORCES = ("force_n", "limit_n", "band_low_n", "band_high_n")
 _OVER_GRAM = re.compile(r"/ *gram_n\b")
@@ -121,4 +119,5 @@ def _is_gravity(number: float) -> bool:
 
 
 def _dimension_of_name(name: str) -> str:
-    return next((found for ending, found in _DIMENSIONS.items() if name.endswith(ending)), "")
+    unit = unit_of_name(name)
+    return UNITS[unit].dimension if unit else ""

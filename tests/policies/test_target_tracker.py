@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from policies import Observation
 from policies.contract import read_contract
-from policies.contract_steps import TARGET_FACTOR, Aim, needed
+from policies.contract_steps import TARGET_FACTOR, TargetTracker, needed
 from policies.needs import FeltNeed
 from primitives.sense import Interval
 from tests.fakes.contracts import BERRY, contract, terms
@@ -85,7 +85,7 @@ def felt_grip(felt_n: float | None) -> Observation:
 
 
 def test_an_aim_narrows_the_band_and_leaves_the_limit():
-    aimed, words = Aim().at(OWN, felt_grip(0.3))
+    aimed, words = TargetTracker().contract_at(OWN, felt_grip(0.3))
     assert aimed.terms.force_n.within(OWN.terms.force_n)
     assert aimed.terms.limit_n == OWN.terms.limit_n
     assert "mm wide" in words
@@ -93,5 +93,5 @@ def test_an_aim_narrows_the_band_and_leaves_the_limit():
 
 def test_without_a_kind_or_a_felt_force_the_contract_is_the_target():
     plain = contract(1.0, 2.0, 2.5)
-    assert Aim().at(plain, felt_grip(0.3)) == (plain, "")
-    assert Aim().at(OWN, felt_grip(None)) == (OWN, "")
+    assert TargetTracker().contract_at(plain, felt_grip(0.3)) == (plain, "")
+    assert TargetTracker().contract_at(OWN, felt_grip(None)) == (OWN, "")
