@@ -23,7 +23,7 @@ COMMANDS = {
     "eval": "evaluate weights on unseen contacts: scores, instructions, zero-shot, probe, ...",
     "simulate": "press one object into a sensor's gel: heights, pressure and force",
     "data": "generate, import, inspect, stats, verify, gallery, sheet: data sets of contacts",
-    "calibrate": "calibrate a unit: gelsight-mini, background, gripper, pad-axes",
+    "calibrate": "calibrate a unit: gelsight-mini, background, gains, gripper, force, slip, ...",
     "emulate": "run emulators that speak the real protocols: ur, dynamixel, taxels, rig",
     "doctor": "check every device of a rig and advise on what is wrong; moves nothing",
     "jog": "move a rig by keyboard in small limited steps, and show the contact",
@@ -34,10 +34,11 @@ ON_ALL_CORES = ("train", "eval", "data", "bench", "calibrate gelsight-mini")
 """Commands with much to compute at once. The others compute in steps of milliseconds and keep to
 one thread: on a busy machine, threads that wait for each other took up to fifteen times as long."""
 
-MOVE_A_ROBOT = ("run", "replay", "calibrate", "doctor", "jog")
-"""Commands with real devices, which SIGTERM and SIGHUP end as Ctrl-C does. The others have nothing
-to make safe: emulators and workers of a pool end with the process that started them, a training is
-resumed from its last checkpoint, and ``view`` hears SIGTERM itself, to end its viewer."""
+MOVE_A_ROBOT = ("run", "replay", "calibrate", "doctor", "jog", "emulate")
+"""Commands with devices, which SIGTERM and SIGHUP end as Ctrl-C does, and which go on when nobody
+reads their output any more. The others have nothing to make safe: workers of a pool end with the
+process that started them, a training is resumed from its last checkpoint, and ``view`` hears
+SIGTERM itself, to end its viewer."""
 
 FILE_ERRORS = (
     *(errno.EACCES, errno.EDQUOT, errno.EFBIG, errno.EINVAL, errno.EIO, errno.EISDIR),
@@ -53,7 +54,7 @@ STOPPED = 130
 
 EXIT_CODES = """\
 Exit codes:
-  0    success (for run: a verified grasp)
+  0    success (for run: a verified grasp, or a dry run that has decided)
   1    any other end of an episode, a differing decision, a demo or benchmark that failed
   2    wrong use: unknown command, flag, field, file or value, or a refused instruction
   3    fault: robot, sensor, policy or recorder failed, or a bug
@@ -87,9 +88,10 @@ def main(argv: Sequence[str] | None = None) -> int:
         return 0
     if argv[0] not in MOVE_A_ROBOT:
         return _run(argv)
+    from tacgrasp.base.lasting_output import lasting_output
     from tacgrasp.base.stop_signals import stop_signals_as_ctrl_c
 
-    with stop_signals_as_ctrl_c() as received:
+    with stop_signals_as_ctrl_c() as received, lasting_output():
         code = _run(argv)
     return 128 + received[0] if received and code == STOPPED else code
 

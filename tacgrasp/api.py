@@ -23,6 +23,7 @@ from typing import Any
 from policies import Policy
 from primitives.contract import Contract
 from tacgrasp import policy_factory
+from tacgrasp.base.errors import UsageError
 from tacgrasp.config.layers import load_with_limits, with_values
 from tacgrasp.config.schema import RunConfig
 from tacgrasp.config.terms import contract_of
@@ -80,6 +81,9 @@ def configure(task: str = "strawberry", rig: str = "sim", **values: Any) -> Run:
     Raises:
         UsageError: An unknown name, a value that doesn't fit, or one that widens the rig's limits.
     """
+    for kind, name in (("task", task), ("rig", rig)):
+        if not isinstance(name, str):
+            raise UsageError(f"configure(): {kind} is a name or a path as text, got {name!r}")
     below, sources, hard = load_with_limits(task, rig)
     config = with_values(below, sources, hard, values, "configure()")
     return Run(config=config, contract=contract_of(config, sources))

@@ -25,7 +25,7 @@ from tacgrasp.base.printable import printable
 from tacgrasp.config.schema import RunConfig
 from tacgrasp.episodes.record import PHASE_LABELS, StepRecord, TruthFacts
 from tacgrasp.runtime.end_text import end_text, gain_text
-from tacgrasp.runtime.outcome import Outcome
+from tacgrasp.runtime.outcome import RELEASED, Outcome
 
 COMPLETED = "Grasp completed successfully"
 """Final line of Algorithm 1; printed for a verified grasp, in simulation an unbruised one."""
@@ -263,7 +263,7 @@ def end_lines(outcome: Outcome, config: RunConfig, width: int = COLUMNS) -> list
             "",
         ),
         *([(gain_text(outcome), "")] if outcome.gain is not None else []),
-        *([(f"truth: {truth_text(outcome.truth)}", "")] if outcome.truth is not None else []),
+        *([(_truth_line(outcome), "")] if outcome.truth is not None else []),
         (end_text(outcome, config), "bold"),
     ]
     if outcome.completed:
@@ -271,6 +271,12 @@ def end_lines(outcome: Outcome, config: RunConfig, width: int = COLUMNS) -> list
     return [
         Text(line, style=style) for text, style in paragraphs for line in wrapped(text, width=width)
     ]
+
+
+def _truth_line(outcome: Outcome) -> str:
+    assert outcome.truth is not None
+    when = ", before it opened" if outcome.safe_state == RELEASED else ""
+    return f"truth{when}: {truth_text(outcome.truth)}"
 
 
 def truth_text(truth: TruthFacts) -> str:

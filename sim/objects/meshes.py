@@ -175,7 +175,8 @@ def _load(path: Path) -> tuple[FloatArray, IntArray]:
         vertices = np.asarray(mesh.vertices, dtype=np.float64).reshape(-1, 3)
         faces = np.asarray(mesh.faces, dtype=np.int64).reshape(-1, 3)
     except Exception as error:  # trimesh raises any exception of its readers
-        reason = " ".join(str(error).split())[:_REASON_LENGTH]
+        lacks = "it lacks " if isinstance(error, KeyError) else ""
+        reason = lacks + " ".join(str(error).split())[:_REASON_LENGTH]
         raise TouchError(
             f"{path} can't be read as a mesh ({', '.join(SUFFIXES)}): {reason}"
         ) from None

@@ -8,6 +8,7 @@ from __future__ import annotations
 from cltp.errors import TouchError
 from cltp.tactile.shear.field import ShearField
 from tacgrasp.drivers.opening import check_open
+from tacgrasp.rig.gel_sense import GelSense
 from tacgrasp.rig.protocols import Rig, ShearSensor
 from tacgrasp.rig.release import CLEAR_M, let_go, opened_afterwards
 
@@ -30,13 +31,19 @@ def held_frames(
         Frames of the hold, and of the unload.
 
     Raises:
-        TouchError: The sensor measures no shear, or can't be read.
+        TouchError: The sensor measures no shear, can't be read, or nothing is held.
         RobotError: The gripper is not open, or failed; the message says if it may still hold.
     """
     check_open(rig.gripper)
-    rig.sensor.take_reference()
+    sense = GelSense(rig.sensor)
+    sense.take_reference()
     with opened_afterwards(lambda: let_go(rig.gripper, CLEAR_M)):
         rig.gripper.grip(force_n)
+        if not sense.read_contact():
+            raise TouchError(
+                f"nothing is felt at {force_n:g} N: put a firm object between the fingers, or give "
+                "more --force-n"
+            )
         hold = [_frame(rig) for _ in range(round(hold_s * rig.sensor.spec.frame_hz))]
         unload = []
         for step in range(1, UNLOAD_STEPS + 1):

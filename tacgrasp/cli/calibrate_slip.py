@@ -16,8 +16,8 @@ class CalibrateSlipFlags:
     """Find from which score a contact of this unit slips: hold an object still, then unload it.
 
     No force gauge is needed. Put a firm object between the fingers so that it stands by itself. The
-    gripper closes on it, holds it at rest, lowers the force step by step and opens; it opens after
-    Ctrl-C too.
+    arm stays where it is. The gripper closes on the object, holds it at rest, lowers the force step
+    by step and opens; it opens after Ctrl-C too.
 
     Attributes:
         rig: Name of a rig, or path of its YAML file.
@@ -54,10 +54,12 @@ def run(flags: CalibrateSlipFlags) -> None:
     config, _ = load(None, flags.rig, os.environ)
     update = {"object": flags.object, "seed": flags.seed, "sensor": flags.sensor or config.sensor}
     if config.hardware is not None:
-        del update["sensor"]  # that of its driver
+        update |= {"sensor": config.sensor, "hardware": config.hardware.without_start_pose()}
     config = config.model_copy(update=update)
     if not config.gripper.min_force_n <= flags.force_n <= config.gripper.max_force_n:
         raise UsageError(f"--force-n {flags.force_n:g} is beyond the gripper of {flags.rig}")
+    if config.hardware is None:
+        slip_model(config.sensor)  # refused before anything moves
     rig = make_rig(config) if config.devices == "hardware" else make_centred_rig(config)
     try:
         model = slip_model(rig.sensor.spec.name)

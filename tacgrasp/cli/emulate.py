@@ -31,11 +31,12 @@ def emulate(kind: str, options: Sequence[str], sleep: Callable[[float], None]) -
     """
     from primitives import RobotError
     from sim.emulators.process.spawn import EmulatorProcess
-    from tacgrasp.console import make_console
+    from tacgrasp.console import make_console, working
 
     console = make_console()
     try:
-        emulator = EmulatorProcess(kind, *options)
+        with working(f"starting the {kind} emulator"):
+            emulator = EmulatorProcess(kind, *options)
     except RobotError as error:
         raise UsageError(str(error)) from None
     with emulator:

@@ -130,11 +130,22 @@ def _recover(flags: RecoverFlags) -> None:
     make_console().print(recover(flags.episode, flags.out))
 
 
+def _beside(episode: Path, name: str) -> Path:
+    """A file beside an episode.
+
+    Raises:
+        UsageError: A folder was given instead of an episode.
+    """
+    if episode.is_dir():
+        raise UsageError(f"can't read {episode}: it is a folder; name an episode in it (.mcap)")
+    return episode.with_name(name)
+
+
 def _plot(flags: PlotFlags) -> None:
     from tacgrasp.console import make_console
     from tacgrasp.episodes.plot import plot_episode
 
-    png = flags.out or flags.episode.with_suffix(".png")
+    png = flags.out or _beside(flags.episode, f"{flags.episode.stem}.png")
     check_ending(png, ".png")
     plot_episode(flags.episode, png)
     make_console().print(f"drawn: {png}")
@@ -149,7 +160,7 @@ def _export(flags: ExportFlags) -> None:
 
     first = flags.episodes[0]
     name = f"{first.stem}-lerobot" if flags.to == "lerobot" else f"{first.stem}.{flags.to}"
-    out = flags.out or first.with_name(name)
+    out = flags.out or _beside(first, name)
     with working(f"writing {out.name}"):
         if flags.to == "lerobot":
             from tacgrasp.episodes.export.lerobot import write_lerobot

@@ -5,6 +5,7 @@ Not here: the flags of each command (the other modules of ``tacgrasp.cli``).
 
 from __future__ import annotations
 
+import re
 import sys
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import fields, is_dataclass
@@ -56,6 +57,12 @@ def parse_some(kind: type[T], argv: Sequence[str]) -> T:
         return tyro.cli(kind, args=argv, return_unknown_args=True, add_help=False)[0]
 
 
+_NO_NUMBER = re.compile(
+    r"^(?:invalid literal for int\(\) with base 10|could not convert string to float): "
+)
+"""How Python says that a text is no number."""
+
+
 def _problem(event: tyro_errors.ParseErrorEvent, flags: object) -> str:
     """Error message of a refused command line; ``flags`` is the model or dataclass to be filled."""
     match event:
@@ -77,6 +84,7 @@ def _problem(event: tyro_errors.ParseErrorEvent, flags: object) -> str:
         case tyro_errors.InstantiationFailure(argument=argument, message=message):
             if argument is not None:
                 reason = message.splitlines()[0].partition(" into tuple type")[0]
+                reason = _NO_NUMBER.sub("got ", reason)
                 return f"{_name(argument)} must be {argument.lowered.metavar}: {reason}"
             error = sys.exception()
             while error is not None and not isinstance(error, ValidationError):

@@ -16,10 +16,13 @@ from rich.console import Console
 from rich.control import Control
 from rich.segment import ControlType
 
+from tacgrasp.base.errors import UsageError
 from tacgrasp.cli.flags import parse
 
 if TYPE_CHECKING:
     from tacgrasp.bringup.jog import Jogger, JogSettings
+    from tacgrasp.config.schema import RunConfig
+    from tacgrasp.rig.protocols import Rig
 
 REFRESH_S = 0.4
 """Interval between displays of the contact while no key is pressed [s]."""
@@ -38,12 +41,15 @@ class JogFlags:
         task: Task whose clear_mm the gripper opens by.
         seed: Random seed of the simulated or emulated world.
         force_n: Force of the first grip [N]; the rig's first force if omitted.
+        open: Open the gripper of real devices by 10 mm and end, whatever arm and sensor are like:
+            they are not connected.
     """
 
     rig: str = "sim"
     task: str = "strawberry"
     seed: int = 0
     force_n: float | None = None
+    open: bool = False
 
 
 def main(argv: Sequence[str]) -> int:
@@ -61,6 +67,9 @@ def main(argv: Sequence[str]) -> int:
     hardware = None if config.hardware is None else config.hardware.without_start_pose()
     config = config.model_copy(update={"seed": flags.seed, "hardware": hardware})
     limits, out = config.limits(), make_console()
+    if flags.open:
+        out.print(_opened_alone(config))
+        return 0
     rig = make_rig(config)
     try:
         force_n = rig.first_force_n if flags.force_n is None else flags.force_n
@@ -83,10 +92,46 @@ def main(argv: Sequence[str]) -> int:
             _jog(_characters(sys.stdin.read), jogger, settings, out)
     finally:
         rig.arm.stop()
-        rig.disconnect()
         if out.is_terminal:
             out.print()  # ends the line of the contact
+        if kept := _kept_grip(rig):
+            out.print(kept)
+        rig.disconnect()
     return 0
+
+
+def _opened_alone(config: RunConfig) -> str:
+    """Open the gripper of a rig of real devices; what was done.
+
+    Raises:
+        UsageError: The rig has no real devices.
+        RobotError: The gripper can't be reached, or does not open.
+    """
+    from tacgrasp.rig.driver_choice import connect_gripper_of
+    from tacgrasp.rig.release import CLEAR_M
+
+    if config.hardware is None or config.devices != "hardware":
+        raise UsageError("--open is for real devices; name their file with --rig")
+    gripper = connect_gripper_of(config.hardware.gripper).gripper
+    try:
+        state = gripper.open_by(CLEAR_M)
+    finally:
+        gripper.disconnect()
+    return f"the gripper is open: {1000 * state.width_m:.1f} mm between the fingers"
+
+
+def _kept_grip(rig: Rig) -> str:
+    """That the gripper goes on gripping; '' where it does not, or its state can't be read."""
+    from primitives import RobotError
+
+    try:
+        state = rig.gripper.state()
+    except RobotError:
+        return ""
+    if not state.closed:
+        return ""
+    width_mm = 1000 * state.width_m
+    return f"the gripper keeps its grip: {state.force_n:.2f} N commanded, {width_mm:.1f} mm"
 
 
 def _jog(keys: Iterator[str], jogger: Jogger, settings: JogSettings, out: Console) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -106,6 +106,7 @@ def configure(argv: Sequence[str]) -> tuple[RunConfig, Sources, RunFlags]:
 def _run(config: RunConfig, contract: Contract, events: EventFile, flags: RunFlags) -> Outcome:
     from tacgrasp.config.terms import contract_lines
     from tacgrasp.console import end_lines, make_console, width_of, working, wrapped
+    from tacgrasp.episodes.interrupts import delayed_interrupts
     from tacgrasp.episodes.paths import check_record_directory
     from tacgrasp.policy_factory import check_run_policy
     from tacgrasp.rig.factory import check_names
@@ -125,7 +126,8 @@ def _run(config: RunConfig, contract: Contract, events: EventFile, flags: RunFla
         )
     check_record_directory(config.record)
     console = make_console()
-    with ExitStack() as stack:
+    stack = ExitStack()
+    try:
         with working("loading the policy and connecting the rig"):
             policy, rig = _connect(config, stack)
         start = f"{config.task} with {policy.name}, seed {config.seed}: {config.instruction}"
@@ -139,10 +141,15 @@ def _run(config: RunConfig, contract: Contract, events: EventFile, flags: RunFla
         if flags.view:
             watch.append(_viewer(config, contract, console, stack))
         outcome, path = run_recorded(rig, policy, config, contract, observers=watch)
+    except BaseException:
+        stack.close()
+        raise
+    with suppress(KeyboardInterrupt), delayed_interrupts():  # the robot's state is always told
+        stack.close()
         events.end(outcome)
-    console.print(f"episode: {path}")
-    for end_line in end_lines(outcome, config, width_of(console)):
-        console.print(end_line)
+        console.print(f"episode: {path}")
+        for end_line in end_lines(outcome, config, width_of(console)):
+            console.print(end_line)
     return outcome
 
 

@@ -62,6 +62,9 @@ def load_with_limits(
     for kind, flag, default in (("task", task, "strawberry"), ("rig", rig, "sim")):
         variable = f"{ENV_PREFIX}{kind.upper()}"
         from_env = variables.pop(variable, None)
+        if "" in (flag, from_env):
+            where = f"--{kind}" if flag == "" else f"environment variable {variable}"
+            raise UsageError(f"{where} is empty; name a {kind}, or leave it out for {default}")
         merged[kind] = flag or from_env or default
         if from_env and not flag:
             sources[kind] = f"environment variable {variable}"
@@ -171,7 +174,8 @@ def _read_layer(kind: str, name: str) -> tuple[str, dict[str, Any], Path]:
         path = Path(name)
         folder = path.resolve().parent
         if not path.is_file():
-            raise UsageError(f"{kind} file {name} does not exist")
+            problem = "is a folder" if path.is_dir() else "does not exist"
+            raise UsageError(f"{kind} file {name} {problem}")
     elif name in names(kind):
         path = folder / f"{name}.yaml"
     elif kind == "task" and name in plugins("tasks"):
@@ -191,7 +195,8 @@ def _read_layer(kind: str, name: str) -> tuple[str, dict[str, Any], Path]:
         raise UsageError(f"{source}: {error}") from None
     if not isinstance(fields, dict):
         raise UsageError(
-            f"{source} must hold fields such as 'instruction: ...', got {fields!r:.60}"
+            f"{source} must hold fields such as "
+            f"{'instruction: ...' if kind == 'task' else 'devices: ...'!r}, got {fields!r:.60}"
         )
     for field in ("task", "rig"):
         if field in fields:

@@ -15,7 +15,10 @@ LEAST_OPEN_M = 0.005
 which fingers open that have closed on nothing; so narrow, they would go down onto the object. How
 much wider they stand is the bench's own affair."""
 
-OPEN_IT = "open it until it is wide enough: tacgrasp jog (key o)"
+BY_JOG = "tacgrasp jog (key o; --open needs the gripper alone)"
+"""How a person opens a gripper."""
+
+OPEN_IT = f"open it until it is wide enough: {BY_JOG}"
 
 
 def opening_problem(state: GripperState) -> str:

@@ -54,13 +54,6 @@ from tacgrasp.lessons.dialogue.query import (
     query_of,
     read_query,
 )
-from tacgrasp.lessons.dialogue.rules.follow_ups import (
-    asks_by_how_much,
-    completed,
-    difference_of,
-    leaves_unit_out,
-    with_quantity_of,
-)
 from tacgrasp.lessons.dialogue.rules.ruled import ruled_whole
 from tacgrasp.lessons.dialogue.rules.unread import is_beyond
 from tacgrasp.lessons.dialogue.sided_questions import to_named_side
@@ -105,12 +98,6 @@ choice, by 220 wordings of two people that neither has learned from."""
 UNLIKELY_LOG = -2.0
 """What a query loses that the question's form speaks against. Our choice; -1 to -5 do alike."""
 
-FOLLOW_UP_WORDS = 5
-"""Longest question [words] that may be a follow-up without beginning as one. Our choice."""
-
-ALONE_FROM = 0.5
-"""Confidence from which a question that does not begin as a follow-up is none. Our choice."""
-
 CALCULATED_CONFIDENCE = 0.97
 """Confidence in the terms that were read of a question: of 736 blind questions 98 % were read
 rightly, and of 126 that had not been looked at 97.6 %."""
@@ -122,17 +109,7 @@ logistic regression to 1,475 blind questions that the grammar lacks; right ones 
 confidence than wrong ones in 84 % of pairs (five-fold cross-validation), by the probability alone
 in 77 %."""
 
-_FOLLOWS = re.compile(r"(?:and|but|then|why|how come|what about|how about|same)\b", re.I)
-
 _EITHER = re.compile(r"\beither\b", re.I)
-
-_STANDS_ALONE = re.compile(
-    r"(?:is|are|isn't|aren't|was|were|does|do|did|has|have|had|can|could|will|would|shall|should|"
-    r"may|might|must)"
-    r"(?: \S+){2}",
-    re.I,
-)
-"""A question with subject and verb: 'Is it round?' follows nothing, 'Is it?' may."""
 
 
 class QueryWriter(Protocol):
@@ -259,10 +236,10 @@ def understood_by_model(
     writer: QueryWriter, question: str, before: str = ""
 ) -> ReadQuestion | None:
     """What a question means to model and classifier; None where they come to no query."""
-    return _doubted(question, read_by_model(writer, question, before))
+    return doubted(question, read_by_model(writer, question, before))
 
 
-def _doubted(question: str, read: ReadQuestion | None) -> ReadQuestion | None:
+def doubted(question: str, read: ReadQuestion | None) -> ReadQuestion | None:
     """What was read by the model, with the probability that it is the right query."""
     if read is None:
         return None
@@ -368,45 +345,3 @@ def _as_one(question: str, read: ReadQuestion) -> ReadQuestion:
         shows=tuple(dict.fromkeys(shown)),
     )
     return read._replace(meaning=both)
-
-
-def understood_in_turn(writer: QueryWriter, question: str, before: str) -> ReadQuestion | None:
-    """What a question means after another one.
-
-    One that begins as follow-ups do, or that the grammar has as one, is read behind the question
-    before it. So is another short one, without a verb of its own, where it means little alone, and
-    that gives the likelier query.
-    """
-    if not before:
-        return understood(writer, question)
-    if (whole := _completed(question, before)) is not None:
-        return whole
-    if _FOLLOWS.match(question):
-        return understood(writer, question, before)
-    known = understood_by_grammar(question) or understood_by_grammar(question, before)
-    if known is not None:
-        return known
-    alone = read_by_model(writer, question)
-    stands_alone = alone is not None and alone.confidence >= ALONE_FROM
-    stands_alone = stands_alone or bool(_STANDS_ALONE.match(question))
-    if stands_alone or len(question.split()) > FOLLOW_UP_WORDS:
-        return _doubted(question, alone)
-    behind = read_by_model(writer, question, before)
-    read = [each for each in (alone, behind) if each is not None]
-    return _doubted(question, max(read, key=lambda each: each.confidence, default=None))
-
-
-def _completed(question: str, before: str) -> ReadQuestion | None:
-    """A follow-up that takes its other side, its words or its unit from the question before it."""
-    if text := completed(question, before):
-        return understood_by_grammar(text)
-    is_by_how_much = asks_by_how_much(question)
-    if not (is_by_how_much or leaves_unit_out(question)):
-        return None
-    if (earlier := understood_by_grammar(before)) is None:
-        return None
-    if is_by_how_much:
-        apart = difference_of(earlier.meaning)
-        return ReadQuestion(query_of(apart), apart, CALCULATED_CONFIDENCE) if apart else None
-    named = with_quantity_of(question, earlier.meaning)
-    return understood_by_grammar(named) if named else None

@@ -5,6 +5,7 @@ Not here: the lines of a terminal (``tacgrasp.cli.ask``).
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -17,11 +18,18 @@ from cltp.tactile.encoder_input import encoder_input
 from cltp.tactile.states import NO_CONTACT_STATE
 from policies.llm.spoken import SpokenContact, spoken_contact
 from primitives.contract import Contract
-from tacgrasp.lessons.answering import answered
+from primitives.errors import LimitError
+from tacgrasp.lessons.answering import Answered, answered
 from tacgrasp.lessons.dialogue.answers import Answer
-from tacgrasp.lessons.dialogue.meaning import AnswerKind
-from tacgrasp.lessons.dialogue.scene import AskedScene
-from tacgrasp.lessons.understanding import understood_in_turn
+from tacgrasp.lessons.dialogue.conditions import IN_BAND
+from tacgrasp.lessons.dialogue.facts import ACTIONS, REASONS
+from tacgrasp.lessons.dialogue.meaning import AnswerKind, Check, Meaning, kind_of
+from tacgrasp.lessons.dialogue.scene import HOLD, LIFT, AskedScene
+from tacgrasp.lessons.read_question import ReadQuestion
+from tacgrasp.lessons.turns.certainty import LAST, doubted_by
+from tacgrasp.lessons.turns.told import with_told
+from tacgrasp.lessons.turns.turn import Turn, next_turn
+from tacgrasp.lessons.understanding import understood_by_grammar
 from tacgrasp.playback.describe import RAISED, cloud_flags, zero_flags
 
 
@@ -57,6 +65,16 @@ class Spoken:
             "query": self.query,
             "flags": list(self.flags),
         }
+
+
+_WHY = re.compile(
+    r"(?:and |but |so )?(?:why(?: not| is that| can'?t you(?: say| tell)?)?|how come)[?.! ]*", re.I
+)
+_WHY_SO = re.compile(r"(?:and |but |so )?why ((?:is|are|does|do|has|have) [^?]+?)[?.! ]*", re.I)
+_SO = re.compile(r"\b(?:so|that|too) (?=\w+\?$)", re.I)
+_LIFTING = re.compile(
+    r"\b(?:lift\w*|pick\w*|ready|raise|hoist|take it up|go ahead|proceed)\b", re.I
+)
 
 
 class Conversation:
@@ -100,7 +118,8 @@ class Conversation:
             self._flags = tuple(zero_flags(cloud))
         self._scene = replace(told, state=spoken.state)
         self._words, self._ends = spoken.confidence, spoken.ends
-        self._before = ""
+        self._turn = Turn()
+        self._last: Spoken | None = None
 
     def ask(self, question: str) -> Spoken:
         """Answer a question."""
@@ -112,14 +131,107 @@ class Conversation:
                 query="",
                 flags=self._flags,
             )
-        asked = understood_in_turn(self._talker, question, self._before)
-        self._before = question
-        given = answered(asked, self._scene, self._words, self._ends)
-        query = "" if asked is None else asked.query
+        if told := self._certainty(question) or self._reason_of_none(question):
+            return told
+        self._turn = next_turn(self._talker, question, self._turn)
+        try:
+            scene = self._scene_of(self._turn)
+        except (ValueError, LimitError) as error:
+            return self._spoken(Answer(text=f"I can't take that: {error}.", kind=AnswerKind.TEXT))
+        if self._turn.read is None and self._turn.told is not None:
+            self._scene = scene
+            return self._spoken(
+                Answer(text=f"Noted: {self._turn.told.text}.", kind=AnswerKind.TEXT)
+            )
+        self._last = self._answered(question, self._turn.read, scene)
+        return self._last
+
+    def _scene_of(self, turn: Turn) -> AskedScene:
+        """The scene with what a question tells, for that question alone."""
+        return self._scene if turn.told is None else with_told(self._scene, turn.told)
+
+    def _answered(self, question: str, asked: ReadQuestion | None, scene: AskedScene) -> Spoken:
+        given = answered(asked, scene, self._words, self._ends)
+        answer = given.answer
+        if refuted := refuted_premise(question, scene):
+            answer = refuted
+        elif asked is not None and advises_first(question, asked.meaning, answer, scene):
+            first = f"{ACTIONS[action_of(scene)]} first: {REASONS[reason_of(scene)]}"
+            answer = replace(answer, text=f"{answer.text.rstrip('.')}, but {first}.")
+        return self._spoken(answer, given, "" if asked is None else asked.query)
+
+    def _certainty(self, question: str) -> Spoken | None:
+        """How sure the answer before is, or that for a quantity; None of other questions."""
+        doubted = doubted_by(question)
+        last = self._last if doubted == LAST else None
+        if doubted and doubted != LAST:
+            last = self._answered(doubted, understood_by_grammar(doubted), self._scene)
+        if last is None or not last.answer.decidable or not last.confidence:
+            return None
+        return replace(last, answer=Answer(text=certainty_text(last), kind=AnswerKind.TEXT))
+
+    def _reason_of_none(self, question: str) -> Spoken | None:
+        """Why the question before had no answer; None of other questions."""
+        last = self._last
+        if last is None or last.answer.decidable or not _WHY.fullmatch(question.strip()):
+            return None
+        missing = last.answer.text.removeprefix("I can't say: ")
+        reasons = {AnswerKind.OFF_TOPIC: "that is not about touch."}
+        reason = reasons.get(last.answer.kind, "the touch of one fingertip does not tell it.")
+        if missing != last.answer.text:
+            reason = missing
+        elif not last.query:
+            return None  # it was not understood
+        return self._spoken(Answer(text=f"Because {reason}", kind=AnswerKind.TEXT))
+
+    def _spoken(self, answer: Answer, given: Answered | None = None, query: str = "") -> Spoken:
         return Spoken(
-            answer=given.answer,
-            confidence=given.confidence,
-            interval=given.interval,
+            answer=answer,
+            confidence=1.0 if given is None else given.confidence,
+            interval=None if given is None else given.interval,
             query=query,
             flags=self._flags,
         )
+
+
+def certainty_text(spoken: Spoken) -> str:
+    """How sure an answer is: the ends of a number, or the chances of anything else."""
+    if spoken.interval is not None:
+        unit = f" {spoken.answer.unit}" if spoken.answer.unit else ""
+        low, high = (f"{end:.3g}" for end in spoken.interval)
+        return f"In nine cases of ten it is between {low} and {high}{unit}."
+    percent = f"{100 * spoken.confidence:.0f} %"
+    if spoken.answer.kind is AnswerKind.YES_NO:
+        return f"About {percent} sure that the answer is {'yes' if spoken.answer.value else 'no'}."
+    claim = spoken.answer.text.removeprefix("Probably ")
+    return f"About {percent} sure: {claim[:1].lower()}{claim[1:]}"
+
+
+def refuted_premise(question: str, scene: AskedScene) -> Answer | None:
+    """The answer to a question for the reason of what is not so; None of other questions."""
+    found = _WHY_SO.fullmatch(question.strip())
+    asked = understood_by_grammar(_SO.sub("", f"{found[1]}?")) if found else None
+    if asked is None or kind_of(asked.meaning) is not AnswerKind.YES_NO:
+        return None
+    is_so = answered(asked, scene).answer
+    if not is_so.decidable or is_so.value is not False or not is_so.text.startswith("No, "):
+        return None
+    return Answer(text=f"It is not so: {is_so.text.removeprefix('No, ')}", kind=AnswerKind.TEXT)
+
+
+def advises_first(question: str, meaning: Meaning, given: Answer, scene: AskedScene) -> bool:
+    """Whether a yes to a lift leaves out that something else is advised first."""
+    is_lift = isinstance(meaning, Check) and meaning.condition == IN_BAND
+    if not (is_lift and given.value is True and _LIFTING.search(question)):
+        return False
+    return scene.state.in_contact and action_of(scene) not in (LIFT, HOLD)
+
+
+def action_of(scene: AskedScene) -> str:
+    """What is advised, as a scene names it."""
+    return str(scene.values()["action"])
+
+
+def reason_of(scene: AskedScene) -> str:
+    """Why, as a scene names it."""
+    return str(scene.values()["reason"])

@@ -89,17 +89,22 @@ def make_centred_rig(config: RunConfig) -> Rig:
 
 
 def check_names(config: RunConfig) -> None:
-    """Check object, mesh, sensor and the rig's calibrations, before anything heavy is loaded.
+    """Check object, mesh, sensor and calibrations, before anything heavy is loaded or moves.
 
     Raises:
         UsageError: The simulator knows no such object, or the mesh doesn't exist.
-        TouchError: There is no such sensor.
+        TouchError: There is no such sensor, or the slip calibration can't be used.
         RobotError: A calibration of a real rig is missing, damaged or too old.
     """
     from cltp.tactile.sensors import sensor_named
 
-    if config.hardware is None:  # a driver names its own sensor
+    is_named = config.hardware is None or config.devices == "emulated"  # a driver names its own
+    if is_named:
         sensor_named(config.sensor)
+    if config.reflex and config.slip_calibration is not None:
+        from cltp.tactile.shear.slip_calibration import load_slip_calibration
+
+        load_slip_calibration(config.slip_calibration, config.sensor if is_named else None)
     if config.devices != "hardware":
         _check_object(config)
     elif config.hardware is not None:

@@ -27,7 +27,7 @@ from tacgrasp.drivers.check import Finding, finding
 from tacgrasp.drivers.dynamixel.settings import DynamixelSettings
 from tacgrasp.drivers.force_scale import force_finding
 from tacgrasp.drivers.gelsight.settings import GelSightSettings
-from tacgrasp.drivers.opening import check_open
+from tacgrasp.drivers.opening import BY_JOG, check_open
 from tacgrasp.drivers.plugin import PluginSensorSettings
 from tacgrasp.drivers.recorded.settings import RecordedSettings
 from tacgrasp.drivers.scheduling import ADVICE, granted, lateness_s, request_nice
@@ -105,7 +105,7 @@ class HardwareRig:
             self.sensor.expect_untouched()
         except TouchError as error:
             raise RobotError(
-                f"{error}; if the fingers hold something, open them: tacgrasp jog (key o)"
+                f"{error}; if the fingers hold something, open them: {BY_JOG}"
             ) from None
 
     def commands(self) -> tuple[Command, ...]:

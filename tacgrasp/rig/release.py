@@ -12,6 +12,7 @@ from cltp.errors import TouchError
 from primitives.devices import Gripper
 from primitives.errors import RobotError
 from tacgrasp.base.errors import UsageError
+from tacgrasp.drivers.opening import BY_JOG
 from tacgrasp.episodes.interrupts import delayed_interrupts
 
 CLEAR_M = 0.01
@@ -19,7 +20,7 @@ CLEAR_M = 0.01
 
 FREE_BY_HAND = (
     "what it grips may still be held: support it, then switch the gripper's power off, or remove "
-    "the cause and open with tacgrasp jog (key o)"
+    f"the cause and open with {BY_JOG}"
 )
 """Advice when a gripper that should release has failed: it takes no command any more."""
 

@@ -26,6 +26,10 @@ class EndReason(StrEnum):
     OPERATOR = "operator"  # a person stopped it
 
 
+RELEASED = "the gripper has released"
+"""State of the gripper at the end of an episode that opens it."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Verification:
     """Result of a verification by lifting.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable
-from contextlib import suppress
+from contextlib import nullcontext, suppress
 from dataclasses import asdict, dataclass, replace
 from typing import TypeVar
 
@@ -15,7 +15,7 @@ from tacgrasp.episodes.interrupts import delayed_interrupts
 from tacgrasp.episodes.record import TruthFacts
 from tacgrasp.rig.protocols import Rig
 from tacgrasp.rig.release import FREE_BY_HAND
-from tacgrasp.runtime.outcome import EndOfEpisode, EndReason, Outcome, Verification
+from tacgrasp.runtime.outcome import RELEASED, EndOfEpisode, EndReason, Outcome, Verification
 from tacgrasp.runtime.steps import Recorder, Step, Steps
 
 log = logging.getLogger(__name__)
@@ -54,14 +54,16 @@ class Ending:
 def close(ending: Ending) -> Outcome:
     """Stop the arm, hold or release as the task says, and write how the episode ended.
 
-    A failure here turns the end into ``fault``. Ctrl-C waits until it is done.
+    A failure here turns the end into ``fault``. Ctrl-C waits until it is done; of an episode that
+    the operator has stopped, it is what was asked for already.
 
     Raises:
         Exception: A bug in a device; the record is ended all the same.
     """
     rig, steps, end = ending.rig, ending.steps, ending.end
     is_dry = ending.config.dry_run  # which grips nothing: there is no truth and no gain of a grip
-    with delayed_interrupts():
+    is_stopped = end.reason is EndReason.OPERATOR
+    with suppress(KeyboardInterrupt) if is_stopped else nullcontext(), delayed_interrupts():
         try:
             truth = None if is_dry else read_truth(rig, ending.config.verify)  # before it opens
         finally:
@@ -141,7 +143,7 @@ def _make_safe(ending: Ending) -> tuple[str, bool]:
     except KeyboardInterrupt:
         reason = "interrupted again and again"
         return f"the gripper could not be opened: {reason}; {FREE_BY_HAND}", False
-    return "the gripper has released", True
+    return RELEASED, True
 
 
 def _refusals(write: Callable[[], None]) -> list[str]:

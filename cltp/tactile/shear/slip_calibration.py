@@ -114,8 +114,8 @@ def save_slip_calibration(path: Path, calibration: SlipCalibration) -> None:
     write_atomically(path, json.dumps(record, indent=2) + "\n")
 
 
-def load_slip_calibration(path: Path, sensor: str) -> SlipCalibration:
-    """Read the calibration of a sensor.
+def load_slip_calibration(path: Path, sensor: str | None) -> SlipCalibration:
+    """Read the calibration of a sensor; None takes that of any.
 
     Raises:
         TouchError: Missing, damaged, of another kind or version, or of another sensor.
@@ -138,6 +138,6 @@ def load_slip_calibration(path: Path, sensor: str) -> SlipCalibration:
         kinds = (str,) if is_text else (int,) if name == "num_frames" else (int, float)
         if not isinstance(record[name], kinds) or isinstance(record[name], bool):
             raise TouchError(f"{path}: {name} is {record[name]!r}; {ADVICE}")
-    if record["sensor"] != sensor:
+    if sensor is not None and record["sensor"] != sensor:
         raise TouchError(f"{path} is of {record['sensor']}, this sensor is {sensor}; {ADVICE}")
     return SlipCalibration(**record)

@@ -61,6 +61,13 @@ _COMPARED = re.compile(
     rf"(?P<left>{re.escape(MEAN_PRESSURE)}|area_mm2|(?:min\(|hypot\()?pad_[^<>=]+?) (?:<=|>=|<|"
     rf">) [\d.]+"
 )
+_SUPPOSED_N = re.compile(
+    r"(?P<force>\(?force_n [+-] [\d.]+\)?|[\d.]+ \* force_n|\(1 [+-] [\d.]+ / 100\) \* force_n|"
+    r"\([^<>=]*\bforce_n\b[^<>=]*[+*-] [\d.]+\)|\([\d.]+ \* force_n\)) (?:<=|>=|<|>) (?P<with>.+)|"
+    r"band_low_n <= (?P<within>[^<>]*\bforce_n\b[^<>]*[^<>\s\w][^<>]*) <= band_high_n"
+)
+"""A force that a question supposes, and what it is compared with."""
+
 _TESTED = re.compile(r"(?P<name>\w+) .*\d (?P<unit>\S+)")
 """A quantity that a check compares with a number: 'force > 100 g'."""
 
@@ -186,14 +193,24 @@ def _calculated(asked: Calculated, scene: AskedScene) -> Answer:
         return Answer(text=f"{text}.", kind=kind, value=number_in(text), unit=asked.unit)
     is_of_band = any(test in asked.truth for test in _BAND_TESTS)
     shown = [FACT_OF[name] for name in names_of(asked) if name in FACT_OF]
-    shown = ["force_band"] if is_of_band and kind is AnswerKind.CHOICE else shown
+    if is_of_band and (kind is AnswerKind.CHOICE or asked.truth in _BAND_TESTS):
+        shown = ["force_band"]
     compared = _compared(asked.truth, scene)
     clauses = [compared] if compared else [fact(each, scene)[1] for each in dict.fromkeys(shown)]
+    if supposed := _SUPPOSED_N.fullmatch(asked.truth):
+        clauses = _supposed_clauses(supposed["force"] or supposed["within"], clauses, scene)
     if kind is AnswerKind.CHOICE:
         text = _chosen(str(value), clauses, Expression(asked.truth).choices)
         return Answer(text=text, kind=kind, value=value)
     yes = "Yes" if value else "No"
     return Answer(text=f"{', '.join((yes, *clauses))}.", kind=kind, value=bool(value))
+
+
+def _supposed_clauses(force: str, clauses: Sequence[str], scene: AskedScene) -> list[str]:
+    """A supposed force, and what it is compared with, in place of the force that is felt."""
+    would = float(Expression(force).evaluate(scene.values()).value or 0.0)
+    bounds = [each for each in clauses if not each.startswith("the force is")]
+    return [f"the force would be {would:.2f} N", *bounds]
 
 
 def _compared(truth: str, scene: AskedScene) -> str:

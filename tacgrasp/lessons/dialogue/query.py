@@ -157,8 +157,8 @@ _SINGLE = re.compile(
 _MULTIPLES = {
     re.compile(pattern): word
     for pattern, word in {
-        r"\b(?:two|2) times\b": "twice",
-        r"\b(?:three|3) times\b": "thrice",
+        r"(?<![\d.,])(?:two|2) times\b": "twice",
+        r"(?<![\d.,])(?:three|3) times\b": "thrice",
         r"\bmultiplied by (?:two|2)\b": "doubled",
         r"\bmultiplied by (?:three|3)\b": "tripled",
         r"\bdivided by (?:two|2)\b": "halved",

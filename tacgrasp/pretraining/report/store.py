@@ -192,10 +192,12 @@ def load(kind: type[M], path: Path) -> M:
     """Read a measurement.
 
     Raises:
-        TouchError: It is damaged, or of another format or version.
+        TouchError: It is none, is damaged, or of another format or version.
     """
     try:
         content = json.loads(path.read_text(encoding="utf-8"))
+        if not isinstance(content, dict) or "format" not in content:
+            raise TouchError(f"{path} is no measurement; name another folder, or move it")
         stored = content["format"], content["version"]
         if stored == (kind.format, VERSION):
             return TypeAdapter(kind).validate_python(content)

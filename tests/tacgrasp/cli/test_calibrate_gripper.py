@@ -141,7 +141,7 @@ def test_ctrl_c_under_a_current_opens_the_fingers_or_says_that_they_may_hold(
         if is_mute:
             assert code == 3
             assert "the gripper could not be opened" in error
-            assert "open with tacgrasp jog (key o)" in error
+            assert "open with tacgrasp jog (key o; --open needs the gripper alone)" in error
         else:
             assert (code, error) == (130, "tacgrasp: stopped by the operator\n")
             assert emulator.facts()["width_m"] == pytest.approx(0.11, abs=1e-3)

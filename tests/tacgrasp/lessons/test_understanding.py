@@ -10,10 +10,7 @@ from tacgrasp.lessons.answering import NOT_UNDERSTOOD, answered
 from tacgrasp.lessons.dialogue.query import read_query
 from tacgrasp.lessons.query_classifier import QueryOdds
 from tacgrasp.lessons.read_question import ReadQuestion
-from tacgrasp.lessons.understanding import (
-    understood,
-    understood_in_turn,
-)
+from tacgrasp.lessons.understanding import understood
 from tests.fakes.question_scenes import HELD, UNTOUCHED
 
 
@@ -242,46 +239,6 @@ def test_an_untouched_pad_still_has_a_contract():
     depth = understood(Writer("amount depth mm."), "How deep is it?")
     assert answered(limit, UNTOUCHED).answer.text == "1.19 N."
     assert answered(depth, UNTOUCHED).answer.text == "Nothing touches the pad."
-
-
-@pytest.fixture
-def confidences(monkeypatch):
-    """Confidences of what the model reads, by its prompt."""
-    known = {}
-
-    def read(writer, question, before=""):
-        query = "amount depth µm." if before else "other."
-        prompt = understanding.asked_text(question, before).words
-        return ReadQuestion(query, understanding.read_query(query), known[prompt])
-
-    monkeypatch.setattr(understanding, "read_by_model", read)
-    return known
-
-
-BEFORE = "How deep is it?"
-
-
-@pytest.mark.parametrize(
-    ("question", "alone", "behind", "query"),
-    [
-        ("And in microns?", 1.0, 0.1, "amount depth µm."),  # begins as a follow-up
-        ("In microns?", 0.3, 0.8, "amount depth µm."),  # the likelier of two
-        ("What a day!", 0.8, 0.3, "other."),
-        ("Who won the final match in Paris last night?", 0.2, 0.9, "other."),  # too long for one
-        ("Has it moved?", 0.3, 0.9, "other."),  # has a verb of its own
-    ],
-)
-def test_a_follow_up_is_read_behind_the_question_before(
-    question, alone, behind, query, confidences
-):
-    words = question.lower().rstrip("?!")
-    confidences |= {words: alone, f"how deep is it ? {words}": behind}
-    assert understood_in_turn(Writer(""), question, BEFORE).query == query
-
-
-def test_without_a_question_before_nothing_follows(confidences):
-    confidences["and in microns"] = 0.5
-    assert understood_in_turn(Writer(""), "And in microns?", "").query == "other."
 
 
 class Sure(Odds):

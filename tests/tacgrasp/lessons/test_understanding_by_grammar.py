@@ -5,8 +5,7 @@ from dataclasses import replace
 import pytest
 
 from tacgrasp.lessons.answering import answered
-from tacgrasp.lessons.dialogue.rules.follow_ups import difference_of
-from tacgrasp.lessons.understanding import understood, understood_in_turn
+from tacgrasp.lessons.understanding import understood
 from tests.fakes.question_scenes import HELD
 
 
@@ -310,16 +309,6 @@ def test_a_wording_of_the_grammar_means_what_the_grammar_says(question, query):
     assert read.confidence == 1.0
 
 
-def test_a_doubt_of_the_answer_before_asks_for_its_reason():
-    read = understood_in_turn(Refusing(), "Are you sure?", "Is it a sphere?")
-    assert read.query == "why shape."
-
-
-def test_a_follow_up_of_the_grammar_is_read_behind_its_question():
-    read = understood_in_turn(Refusing(), "And in microns?", "How deep is it?")
-    assert read.query == "amount depth µm."
-
-
 def test_another_wording_is_put_to_the_model():
     with pytest.raises(AssertionError, match="the model was asked 'does it fancy a waltz'"):
         understood(Refusing(), "Does it fancy a waltz?")
@@ -557,34 +546,3 @@ def test_what_is_compared_is_told(question, text):
     read = understood(Refusing(), question)
     assert read is not None
     assert answered(read, HELD).answer.text == text
-
-
-@pytest.mark.parametrize(
-    ("question", "before", "query"),
-    [
-        ("By how much?", "Is it above the limit?", "calculate abs(force_n - (limit_n)) in N."),
-        (
-            "by how much",
-            "Is the force within the band?",
-            "calculate max(0, band_low_n - force_n, force_n - band_high_n) in N.",
-        ),
-        ("How much less?", "Is it deeper than 0.2 mm?", "calculate abs(depth_mm - (0.2)) in mm."),
-        (
-            "And from the left edge?",
-            "How far is it from the middle?",
-            "calculate pad_width_mm / 2 + x_mm in mm.",
-        ),
-        ("And below the limit?", "Is the force above 1 N?", "check force under."),
-        ("And in the top half?", "Is it in the left half?", "check top."),
-        ("Is that more than 50?", "How deep is it in microns?", "check depth > #1 µm."),
-        ("Is it more than 100?", "What is the force in grams?", "check force > #1 g."),
-    ],
-)
-def test_a_follow_up_is_completed_by_the_question_before_it(question, before, query):
-    assert understood_in_turn(Refusing(), question, before).query == query
-
-
-def test_what_compares_no_numbers_has_no_difference():
-    meaning = understood(Refusing(), "Is it a sphere?").meaning
-    assert difference_of(meaning) is None
-    assert difference_of(understood(Refusing(), "How deep is it?").meaning) is None

@@ -272,7 +272,7 @@ def test_a_run_is_refused_while_the_gripper_still_grips_and_jog_opens_it(
         code, message = complaint(rig, tmp_path, capsys)
         assert code == 3
         assert "the gripper is not open: it still grips, with 0.30 N commanded" in message
-        assert "tacgrasp jog (key o); nothing moved" in message
+        assert "tacgrasp jog (key o; --open needs the gripper alone); nothing moved" in message
         assert positions(emulators) == pytest.approx(before, abs=1e-9)
         path = str(tmp_path / "mine.yaml")
         assert main(["doctor", "--rig", path]) == 1

@@ -55,7 +55,7 @@ def test_a_stale_background_ends_a_run_before_anything_moves_and_no_episode_is_b
     [
         (
             GripperState(width_m=0.03, force_n=0.42, closed=True),
-            r"still grips, with 0\.42 N commanded and 30\.0 mm.*Support.*tacgrasp jog \(key o\)",
+            r"still grips, with 0\.42 N commanded and 30\.0 mm.*Support.*tacgrasp jog \(key o;",
         ),
         (
             GripperState(width_m=0.002, force_n=0.0, closed=False),

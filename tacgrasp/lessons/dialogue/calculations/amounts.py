@@ -73,6 +73,9 @@ _ALONE = re.compile(
 )
 
 
+_WOULD_BE = re.compile(
+    r"^(?:what|how much) (?:would|will) (?P<a>(?:#\d+ times|#\d+ percent of|\w+ of) .+?) be$"
+)
 _ON_SCALE = re.compile(
     r"(?:what|how much) (?:would|will|does|should|might) (?:a|the|my|our) (?:\w+ )?"
     r"(?:scales?|balance) (?:show|read|say|display|indicate|report)s?"
@@ -161,7 +164,7 @@ def _stood_at(asked: AskedWords) -> Term | None:
 
 def _alone(asked: AskedWords) -> Term | None:
     """A term that is itself what is asked for, where it is more than a quantity."""
-    found = _ALONE.fullmatch(asked.words)
+    found = _ALONE.fullmatch(_WOULD_BE.sub(r"what is \g<a>", asked.words))
     term = asked.term(found["a"]) if found else None
     if term is None:
         return None

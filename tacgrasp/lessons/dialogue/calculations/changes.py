@@ -159,7 +159,7 @@ _EASED = re.compile(
     rf"(?:{_WHO} )?(?:(?:backing|easing) off|releasing|letting go of|let go of|released?|gave up|"
     rf"(?:back|ease|let|slacken|ramp|wind|come|take|knock|shave)(?:e?d)?(?: it)? (?:off|up|back|"
     rf"down)|"
-    rf"ease(?:d)?|took off|took away|drop(?:ped)?|loosen(?:ed)?|slacken(?:ed)?|relax(?:ed)?|"
+    rf"ease(?:d)?|t(?:ake|ook) (?:off|away)|drop(?:ped)?|loosen(?:ed)?|slacken(?:ed)?|relax(?:ed)?|"
     rf"reduced?|lower(?:ed)?|cut|lost|lose)(?: it| off| the (?:force|grip|squeeze))?"
     r"(?: by)? (?P<b>#.+?|(?:a|one) (?:half|third|quarter|fifth|tenth)|half|.+ of the .+)"
     r"(?: off| of (?:force|grip|squeeze))?"

@@ -195,6 +195,15 @@ def safety_factor(asked: AskedWords) -> Term | None:
     return None
 
 
+def stays(asked: AskedWords) -> Calculated | None:
+    """Whether the object stays in the grip under a supposed force; None of other questions."""
+    found = _STAYS.fullmatch(asked.words)
+    if found is None or asked.subject is None or asked.base != "force_n":
+        return None
+    sign = "<" if found["slips"] else ">="
+    return Calculated(truth=f"{asked.subject.factor} {sign} gram_n * mass_g", unit=None)
+
+
 def sure_to_hold(asked: AskedWords) -> Calculated | None:
     """Whether a supposed force surely holds a named load; None where that is not asked."""
     if asked.subject is None or not _ASKS_SO.match(asked.words):
@@ -242,6 +251,12 @@ def _holds_it(asked: AskedWords, mass: Term) -> Calculated | None:
     return Calculated(truth=f"force_n >= gram_n * {mass.factor}", unit=None)
 
 
+_STAYS = re.compile(
+    rf"(?:would|will|does|do|can|could|is|are) (?:we |it |this |that |{THING} |the )+"
+    r"(?:(?:still|then|now|be|surely|safely|able to) )*(?:(?P<slips>slip|slide|fall|drop|slips|"
+    r"slipping|dropped|lost)|(?:hold|held|stay|stick|remain|hold it|stay put))"
+    r"(?: (?:it|up|out|away|down|off|then|now|still|in place|put))*"
+)
 _ALLOWED = re.compile(
     r"\b(?:(?:the force|what) )?(?:that )?(?:we|you|i|it|the gripper) (?:(?:is|are|am) (?:allowed|"
     r"permitted)(?: to)?|may|can) (?:press|use|apply|exert|squeeze)(?: with| at most)?$"

@@ -18,7 +18,7 @@ from tacgrasp.lessons.dialogue.calculations.amounts import amount_of, calculated
 from tacgrasp.lessons.dialogue.calculations.asked import AskedWords
 from tacgrasp.lessons.dialogue.calculations.changes import changed
 from tacgrasp.lessons.dialogue.calculations.checks import calculated_check, condition_of
-from tacgrasp.lessons.dialogue.calculations.loads import sure_to_hold
+from tacgrasp.lessons.dialogue.calculations.loads import stays, sure_to_hold
 from tacgrasp.lessons.dialogue.calculations.phrases import is_made_of
 from tacgrasp.lessons.dialogue.calculations.quantity_names import UNIT
 from tacgrasp.lessons.dialogue.calculations.terms import Term
@@ -156,7 +156,7 @@ def supposed(asked: AskedWords) -> Calculated | None:
             how = _HOW.match(rest)
             is_other = is_other or (how is not None and _MEASURED[how[1]] != told.dimension)
             return None if is_other else amount_of(told, after)
-        found = calculated_check(after) or calculated_amount(after)
+        found = stays(after) or calculated_check(after) or calculated_amount(after)
         found = found or calculated_check(asked.about(told, f"is it {rest}", base))
         found = found or sure_to_hold(after)
         if found and told.expression in found.truth:

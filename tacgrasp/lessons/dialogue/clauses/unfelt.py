@@ -202,7 +202,10 @@ _OF_ANOTHER = re.compile(
     r"(?P<electricity>(?:is|has|does|will|how (?:full|low)) [^#]*?\bbatter(?:y|ies)(?: \w+){0,3}? "
     r"(?:low|full|empty|flat|charged?|dead|left|life|level|holding|last|percent|got)\b.*)|"
     r"(?P<trait>(?:is|what is|how (?:high|low) is) [^#]*?\b(?:blood pressure|heart rate|"
-    r"pulse rate)\b.*)|"
+    r"pulse rate)\b.*|(?:so )?(?:is|was|has|are|were|will|would|does|can|could|might|did) "
+    r"(?:it|this|that|they|the \w+|my \w+) (?!.*\b(?:limit|cap|maximum|ceiling|band)\b)"
+    r"(?:(?:been|got|get|be|have|already|badly|now|a bit) )*(?:bruise[ds]?|damaged?|break|broken|"
+    r"crushed|squashed|crack(?:ed)?|tear|torn|hurt|burst|rupture[ds]?|survive)\b.*)|"
     r"(?P<price>(?:what|how much) [^#]*?\bper kilo(?:gram)? .*\b(?:market|town|shop|store)\b.*|"
     r"(?:what is|how high is) the (?:market price|salary|wage)\b.*))"
 )

@@ -153,7 +153,7 @@ def test_doctor_finds_a_gripper_that_still_grips_and_leaves_it_so(servos):
     assert (
         "a run is refused: the gripper is not open: it still grips, with 0.99 N" in opening.advice
     )
-    assert "tacgrasp jog (key o)" in opening.advice
+    assert "tacgrasp jog (key o; --open needs the gripper alone)" in opening.advice
     assert servos.emulator.facts()["force_n"] == pytest.approx(1.0, abs=0.02)
 
 

@@ -1,0 +1,67 @@
+"""Questions of how sure an answer is: of the one before, or of a quantity that they name.
+
+    What is the force?                  How sure are you?
+    What range could the force have?    How accurate is the depth?
+
+Not here: confidences and intervals (``tacgrasp.lessons.answering``).
+"""
+
+from __future__ import annotations
+
+import re
+
+LAST = "last"
+"""What is doubted where a question names nothing: the answer before."""
+
+_NAMES = {
+    "force": "What is the force?",
+    "depth": "How deep is it?",
+    "indentation": "How deep is it?",
+    "contact area": "What is the contact area?",
+    "area": "What is the contact area?",
+    "shape": "What shape is it?",
+    "texture": "What is the texture?",
+    "position": "Where is it?",
+}
+_QUANTITY = (
+    rf"(?:the |your |its )?(?P<of>{'|'.join(_NAMES)})(?: (?:reading|estimate|value|figure))?"
+)
+_IT = r"(?:it|that|this|the answer|your answer|they|those|your (?:estimate|reading|answer))"
+_SPREAD = (
+    r"(?:uncertainty|error|error bars?|interval|confidence interval|confidence|accuracy|precision|"
+    r"spread|margin of error|reliability|certainty)"
+)
+_SURE = r"(?:sure|certain|confident|accurate|exact|precise|reliable|trustworthy|uncertain)"
+_LEAD = r"(?:(?:and|but|so|ok|okay)[, ]+)*"
+_END = r"(?: then| really| anyway| actually)?[?.! ]*"
+_OF_QUANTITY = re.compile(
+    rf"{_LEAD}(?:(?:what(?: is|'s)|tell me|give me|how (?:large|big|high) is) )?(?:the |your )?"
+    rf"{_SPREAD} (?:of|on|in|for) {_QUANTITY}{_END}|"
+    rf"{_LEAD}how {_SURE} (?:are you (?:of|about|in) |is ){_QUANTITY.replace('<of>', '<b>')}{_END}|"
+    rf"{_LEAD}(?:in )?what range (?:could|can|may|might|does) {_QUANTITY.replace('<of>', '<c>')} "
+    rf"(?:have|be(?: in)?|lie(?: in)?|fall(?: in)?){_END}|"
+    rf"{_LEAD}(?:between )?(?:which|what) (?:values|bounds|limits|ends) (?:does|could|can|may) "
+    rf"{_QUANTITY.replace('<of>', '<d>')} lie(?: between)?{_END}",
+    re.I,
+)
+_OF_LAST = re.compile(
+    rf"{_LEAD}(?:"
+    rf"(?:are )?you (?:really |quite |absolutely |completely )?(?:sure|certain)"
+    rf"(?: (?:of|about) {_IT})?|"
+    rf"(?:really |quite )?(?:sure|certain)|really|how sure|is {_IT} {_SURE}|"
+    rf"how {_SURE} (?:are you|is {_IT}|are (?:they|those|those numbers))"
+    rf"(?: (?:of|about|in) {_IT})?|"
+    rf"(?:what is|what's) (?:the |your )?{_SPREAD}(?: of {_IT})?|"
+    rf"how (?:much )?(?:percent )?(?:are )?you sure|how many percent(?: sure)?(?: are you)?|"
+    rf"(?:in )?what range (?:could|can|may|might) {_IT} (?:have|be(?: in)?|lie(?: in)?)"
+    rf"){_END}",
+    re.I,
+)
+
+
+def doubted_by(question: str) -> str:
+    """The question whose answer is doubted: ``LAST``, or that for a quantity; '' of others."""
+    question = question.strip()
+    if found := _OF_QUANTITY.fullmatch(question):
+        return _NAMES[next(filter(None, found.groupdict().values())).lower()]
+    return LAST if _OF_LAST.fullmatch(question) else ""

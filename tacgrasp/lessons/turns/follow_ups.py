@@ -1,0 +1,122 @@
+"""Follow-ups that the meaning of the question before them completes.
+
+    Is the force above the limit?  By how much?         abs(force_n - limit_n)
+    How much is missing?           In grams?            the same in another unit
+    How deep is it in microns?     Is that more than 50? Is the depth more than 50 µm?
+    What would twice that be?      Is that too much?    2 * force_n > limit_n
+
+Not here: what is written anew in words (``tacgrasp.lessons.turns.rewriting``).
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+
+from tacgrasp.lessons.dialogue.conditions import IN_BAND, OUTSIDE_BAND
+from tacgrasp.lessons.dialogue.expression import Expression
+from tacgrasp.lessons.dialogue.meaning import Amount, Calculated, Check, Meaning, truth_of
+from tacgrasp.lessons.dialogue.quantities import GRAVITY_N_PER_G, QUANTITIES, UNITS, unit_of_name
+from tacgrasp.lessons.turns.rewriting import unit_symbol
+
+_BY_HOW_MUCH = re.compile(
+    r"(?:and |but |so )?(?:by (?:how much|what|which margin|what margin|what amount)|how much"
+    r"(?: (?:over|under|above|below|more|less|too (?:much|little|high|low)))?)"
+    r"(?: (?:is (?:it|that)|exactly|then|precisely|roughly|about))*[?.! ]*",
+    re.I,
+)
+_COMPARED = re.compile(r"(?:not \()?(?P<a>[^<>='\"]+?) [<>]=? (?P<b>[^<>='\"]+?)\)?")
+
+_CALLED_SO = ("depth", "force", "area", "mass", "limit")
+"""Quantities that a pronoun may stand for: questions call them by these names."""
+
+_PRONOUN = re.compile(r"\b(?:it|that|this)\b", re.I)
+_BARE_NUMBER = re.compile(r"(?<=\s)(?P<number>\d+(?:\.\d+)?)(?=[?.! ]*$)")
+_IN_UNIT = re.compile(
+    r"(?:(?:and|so|ok|okay|but)[, ]+)*(?:(?:how (?:much|many)|what)(?: is (?:it|that|this))?[, ]+)?"
+    r"(?:in |as )?(?P<unit>[^\d\s?.!,]+(?: [a-z]+)?)(?: is (?:it|that))?(?:,? please)?[?.! ]*",
+    re.I,
+)
+_SUPPOSED = re.compile(r"\b(?:is|are|would|will|does|do) (?P<pronoun>it|that|this)\b", re.I)
+
+
+def asks_by_how_much(question: str) -> bool:
+    """Whether a follow-up asks for the difference behind a yes or a no."""
+    return _BY_HOW_MUCH.fullmatch(question.strip()) is not None
+
+
+def difference_of(asked: Meaning) -> Calculated | None:
+    """How far apart the two sides of a comparison are; None of what compares no two numbers."""
+    if not isinstance(asked, Check | Calculated):
+        return None
+    condition = asked.condition if isinstance(asked, Check) else asked.truth
+    if condition.removeprefix("not (").removesuffix(")") == IN_BAND:
+        return Calculated(truth=OUTSIDE_BAND, unit="N")
+    if (found := _COMPARED.fullmatch(condition)) is None:
+        return None
+    truth = f"abs({found['a']} - ({found['b']}))"
+    try:
+        names = Expression(truth).names
+    except ValueError:  # it has several comparisons
+        return None
+    units = {unit_of_name(name) for name in names}
+    return Calculated(truth=truth, unit=units.pop()) if len(units) == 1 else None
+
+
+def leaves_unit_out(question: str) -> bool:
+    """Whether a question is about 'it' and ends with a number that has no unit."""
+    return bool(_BARE_NUMBER.search(question) and _PRONOUN.search(question))
+
+
+def with_quantity_of(question: str, asked: Meaning) -> str:
+    """A follow-up that leaves the unit out, in the words of the number before it; '' of others."""
+    if not isinstance(asked, Amount) or asked.quantity not in _CALLED_SO:
+        return ""
+    about = _PRONOUN.sub(f"the {asked.quantity}", question, count=1)
+    return _BARE_NUMBER.sub(rf"\g<number> {asked.unit}", about)
+
+
+def in_another_unit(question: str, asked: Meaning) -> Meaning | None:
+    """The number that was asked for before, in the unit that a follow-up names; None of others.
+
+    A force becomes the mass that weighs as much, and the reverse.
+    """
+    found = _IN_UNIT.fullmatch(question.strip())
+    symbol = unit_symbol(found["unit"]) if found else ""
+    if not symbol or not isinstance(asked, Amount | Calculated) or not asked.unit:
+        return None
+    own, other = UNITS[asked.unit].dimension, UNITS[symbol].dimension
+    if own == other:
+        return replace(asked, unit=symbol)
+    truth = f"({truth_of(asked)})"
+    if isinstance(asked, Amount):
+        own = UNITS[QUANTITIES[asked.quantity].unit].dimension
+    if (own, other) == ("force", "mass"):
+        return Calculated(truth=f"{truth} / {GRAVITY_N_PER_G}", unit=symbol)
+    if (own, other) == ("mass", "force"):
+        return Calculated(truth=f"{truth} * {GRAVITY_N_PER_G}", unit=symbol)
+    return None
+
+
+def about_the_force(question: str) -> str:
+    """A question about 'it' as one about the force; '' of others."""
+    found = _SUPPOSED.search(question)
+    if found is None:
+        return ""
+    return f"{question[: found.start('pronoun')]}the force{question[found.end('pronoun') :]}"
+
+
+def of_supposed_force(asked: Meaning, supposed: Meaning) -> Calculated | None:
+    """A condition of the force, of the force that was worked out before; None of others."""
+    if not isinstance(supposed, Amount | Calculated) or not isinstance(asked, Check | Calculated):
+        return None
+    unit, force = supposed.unit or "", truth_of(supposed)
+    is_force = unit in UNITS and UNITS[unit].dimension == "force"
+    if not is_force or force == "force_n" or re.search(r"limit_n|band_|abs|max", force):
+        return None  # what is felt itself, or how far it is from something
+    if isinstance(asked, Calculated) and asked.unit is not None:
+        return None
+    condition = asked.condition if isinstance(asked, Check) else asked.truth
+    if "force_n" not in condition:
+        return None
+    return Calculated(truth=re.sub(r"\bforce_n\b", f"({force})", condition), unit=None)

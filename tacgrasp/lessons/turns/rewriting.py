@@ -1,0 +1,251 @@
+"""Follow-ups written anew, with the words of the question before them, so that they stand alone.
+
+    What if I add 0.2 N?             And 0.9 N?          What if I add 0.9 N?
+    What if I add 0.9 N?             Is that too much?   If I add 0.9 N, is the force too much?
+    If I double it, are we over?     And if I halve it?  If I halve it, are we over?
+    Does it touch the left edge?     And the right?      Does it touch the right edge?
+    What is the limit?               Are we over it?     Are we over the limit?
+    How far is it from the middle?   From the left edge? How far is it from the left edge?
+
+Each is a proposal: whether it means anything is for the reader of questions to say.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from tacgrasp.lessons.dialogue.meaning import Amount, Check, Meaning, Several, Which
+from tacgrasp.lessons.dialogue.quantities import UNITS
+
+_LEAD = (
+    r"(?:(?:and|but|or|so|ok|okay|well|then|now|no|sorry|what about|how about|i meant?|"
+    r"make (?:it|that))[, ]+)*"
+)
+_END = r"(?:[, ]+(?:then|instead|please|now|more|extra))*[?.! ]*"
+
+_UNIT_WORDS = {
+    "N": r"N|newtons?",
+    "mN": r"mN|millinewtons?",
+    "g": r"g|grams?|gr",
+    "kg": r"kg|kilos?|kilograms?",
+    "oz": r"oz|ounces?",
+    "lb": r"lbs?|pounds?",
+    "%": r"%|percent|per cent",
+    "mm": r"mm|millimet(?:re|er)s?",
+    "µm": r"µm|um|microns?|micromet(?:re|er)s?",
+    "cm": r"cm|centimet(?:re|er)s?",
+    "mm²": r"mm²|mm2|square millimet(?:re|er)s?",
+    "kPa": r"kPa|kilopascals?",
+}
+_NUMBER = rf"(?P<number>\d+(?:[.,]\d+)?)(?:\s*(?P<unit>{'|'.join(_UNIT_WORDS.values())})(?!\w))?"
+_STATED = re.compile(rf"(?<![\w.,]){_NUMBER}(?![\w.])", re.I)
+_ANOTHER_NUMBER = re.compile(
+    rf"{_LEAD}(?:if (?:i|we|you) )?(?:(?:add|added|by|with|for|at|to|of|over|above|below|under|"
+    rf"(?:more|less) than|it's|it is|it were|it weighs|only|a|an|about)\s+)*{_NUMBER}{_END}",
+    re.I,
+)
+
+_SUPPOSED = (
+    re.compile(r"(?:what|how about) (?P<if>if .+?)[?.! ]*", re.I),
+    re.compile(
+        r"(?P<if>(?:if|suppose|supposing|assuming) [^,?.]+(?:\.\d+[^,?.]*)*)[,?.] ?(?P<asked>.+)",
+        re.I,
+    ),
+    re.compile(r"(?P<asked>.+?),? (?P<if>if .+?)[?.! ]*", re.I),
+)
+"""A question with a supposition, before or behind what is asked."""
+
+_ANOTHER_IF = re.compile(rf"{_LEAD}(?P<if>if [^,]+?)[?.! ]*", re.I)
+_UNDER_IT = re.compile(r"\b(?:it|that|this|then|still|would)\b", re.I)
+_THEN = re.compile(r",? ?\bthen\b", re.I)
+_SUBJECT = re.compile(
+    r"(?<=\bis )(?:it|that|this)\b|(?<=\bwould )(?:it|that|this)\b|(?<=\bdoes )(?:it|that|this)\b|"
+    r"(?<=\bwill )(?:it|that|this)\b",
+    re.I,
+)
+
+_SIDES = ("left", "right", "top", "bottom", "upper", "lower", "fingertip", "palm")
+_SIDE = re.compile(rf"\b(?:{'|'.join(_SIDES)})\b", re.I)
+_ANOTHER_SIDE = re.compile(
+    rf"{_LEAD}(?:on |at |to |from )?(?:the )?(?P<side>{'|'.join(_SIDES)})"
+    rf"(?: one| edge| side| rim| border)?{_END}",
+    re.I,
+)
+
+_WHICH_EDGE = re.compile(
+    r"(?:and |but )?(?:(?:on |at )?(?:which|what) (?:edge|side|rim|border)s?(?: is it(?: on)?)?|"
+    r"where)(?: exactly| then)?[?.! ]*",
+    re.I,
+)
+_BY_HOW_MUCH_TO = re.compile(
+    r"(?:and |but )?(?:by )?how (?:much|far|many newtons)(?: is it| is left| is missing| more)? "
+    r"(?:to|until|till|from) (?P<rest>the (?:upper|lower|middle|top|bottom)\b.+?)[?.! ]*",
+    re.I,
+)
+_HOW_FAR = re.compile(
+    r"(?:and |but |ok )?(?:by )?how (?:far|much|many (?:mm|millimet(?:re|er)s))"
+    r"(?: (?:do|must|should|would) (?:i|we|you|it)(?: have to| need to)?(?: move)?"
+    r"(?: it| that way)?)?[?.! ]*",
+    re.I,
+)
+
+_PREPOSITION = (
+    r"from|to|in|into|above|below|over|under|beyond|between|within|at least|at most|more than|"
+    r"less than|on|at|near"
+)
+_GOES_ON = re.compile(
+    rf"(?P<lead>(?:and|but|or|what about|how about)[, ]+)?(?P<rest>(?P<word>{_PREPOSITION})\b.+)",
+    re.I,
+)
+_MOST_WORDS = 4
+"""Longest follow-up that begins with a preposition and no 'and' [words]. Our choice."""
+
+_OBJECT = re.compile(
+    r"\b(?P<before>over|above|below|under|in|within|inside|outside|to|of|near|past|beyond|than|"
+    r"exceed(?:ing|ed)?|reach(?:ing|ed)?|break(?:ing)?|pass(?:ed|ing)?|at|from) "
+    r"(?P<pronoun>it|that|this)\b(?! \w+s\b)",
+    re.I,
+)
+_CALLED = {
+    "limit": "the limit",
+    "band_low": "the lower end of the band",
+    "band_high": "the upper end of the band",
+    "band_middle": "the middle of the band",
+    "mass": "the mass",
+    "needed": "the force that is needed",
+}
+"""Quantities that a pronoun may stand for behind a preposition, as questions call them."""
+
+
+def rewritten(question: str, before: str, meant: Meaning | None) -> Iterator[str]:
+    """What a follow-up may be in full, by the question before it and its meaning."""
+    question = question.strip()
+    for text in (
+        *_about_place(question, before, meant),
+        _with_another_number(question, before),
+        *_with_another_supposition(question, before),
+        _under_supposition(question, before),
+        _with_another_side(question, before),
+        with_noun(question, meant),
+        _completed(question, before),
+    ):
+        if text and text != question:
+            yield text
+
+
+def _about_place(question: str, before: str, meant: Meaning | None) -> Iterator[str]:
+    """A short question about edges, ways and bounds, by what was asked before."""
+    if isinstance(meant, Check) and "cut" in meant.condition and _WHICH_EDGE.fullmatch(question):
+        yield "Which edge cuts it?"
+    side = _ANOTHER_SIDE.fullmatch(question)
+    if side and isinstance(meant, Which) and meant.name == "cut_sides":
+        yield f"Is it cut on the {side['side']} side?"
+    if found := _BY_HOW_MUCH_TO.fullmatch(question):
+        yield f"How far is the force from {found['rest']}?"
+    is_way = isinstance(meant, Which) and meant.name in ("action", "position")
+    if is_way and _HOW_FAR.fullmatch(question):
+        yield "How far is it from the middle of the pad?"
+
+
+def _with_another_number(question: str, before: str) -> str:
+    """The question before with the number of a follow-up, in its unit where that has none."""
+    asked = _ANOTHER_NUMBER.fullmatch(question)
+    if asked is None:
+        return ""
+    dimension = dimension_of(asked["unit"])
+    for found in reversed(list(_STATED.finditer(before))):
+        if asked["unit"] is None:
+            return before[: found.start("number")] + asked["number"] + before[found.end("number") :]
+        if dimension_of(found["unit"]) == dimension:
+            number = f"{asked['number']} {asked['unit']}"
+            return before[: found.start()] + number + before[found.end() :]
+    return ""
+
+
+def dimension_of(unit: str | None) -> str:
+    """What a unit as it is written measures; '' of none."""
+    if not unit:
+        return ""
+    return UNITS[symbol].dimension if (symbol := unit_symbol(unit)) else ""
+
+
+def unit_symbol(written: str) -> str:
+    """The unit of a word, as queries write it; '' of none that follow-ups know."""
+    # 'mn' is no unit: a unit's own letters count first
+    for flags in (re.NOFLAG, re.I):
+        for symbol, words in _UNIT_WORDS.items():
+            if re.fullmatch(words, written, flags):
+                return symbol
+    return ""
+
+
+def _supposed(text: str) -> tuple[str, str] | None:
+    """The supposition of a question and what is asked under it; None without one."""
+    for pattern in _SUPPOSED:
+        if found := pattern.fullmatch(text.strip()):
+            return found["if"], found.groupdict().get("asked") or ""
+    return None
+
+
+def _with_another_supposition(question: str, before: str) -> Iterator[str]:
+    """What was asked before, under another supposition."""
+    found, supposed = _ANOTHER_IF.fullmatch(question), _supposed(before)
+    if found is None:
+        return
+    asked = supposed[1] if supposed else before
+    if asked:
+        yield f"{_capital(found['if'])}, {_uncapital(asked)}"
+        yield f"{_capital(_with_force(found['if']))}, {_uncapital(asked)}"
+    yield f"What {found['if']}?"
+
+
+def _under_supposition(question: str, before: str) -> str:
+    """A follow-up about what was supposed before."""
+    supposed = _supposed(before)
+    if supposed is None or _ANOTHER_IF.match(question) or not _UNDER_IT.search(question):
+        return ""
+    asked = re.sub(rf"^{_LEAD}", "", _THEN.sub("", question), flags=re.I)
+    return f"{_capital(supposed[0])}, {_uncapital(_SUBJECT.sub('the force', asked))}"
+
+
+def _with_force(clause: str) -> str:
+    return re.sub(r"\b(?:it|that)\b", "the force", clause, flags=re.I)
+
+
+def _with_another_side(question: str, before: str) -> str:
+    """The question before, about another side."""
+    asked = _ANOTHER_SIDE.fullmatch(question)
+    places = list(_SIDE.finditer(before))
+    if asked is None or len(places) != 1:
+        return ""
+    return f"{before[: places[0].start()]}{asked['side'].lower()}{before[places[0].end() :]}"
+
+
+def with_noun(question: str, meant: Meaning | None) -> str:
+    """A question with the name of what was asked for in place of the pronoun; '' of others."""
+    if isinstance(meant, Several) and all(isinstance(part, Amount) for part in meant.parts):
+        names = {part.quantity for part in meant.parts if isinstance(part, Amount)}
+        noun = "the band" if names == {"band_low", "band_high"} else ""
+    else:
+        noun = _CALLED.get(meant.quantity, "") if isinstance(meant, Amount) else ""
+    if not noun or _OBJECT.search(question) is None:
+        return ""
+    return _OBJECT.sub(lambda found: f"{found['before']} {noun}", question)
+
+
+def _completed(question: str, before: str) -> str:
+    """A follow-up that begins with a preposition, behind the words before it; '' of others."""
+    found = _GOES_ON.match(question)
+    if found is None or (not found["lead"] and len(question.split()) > _MOST_WORDS):
+        return ""
+    places = list(re.finditer(rf"\b{found['word']}\b", before, re.I))
+    return f"{before[: places[-1].start()]}{found['rest']}" if places else ""
+
+
+def _capital(text: str) -> str:
+    return f"{text[:1].upper()}{text[1:]}"
+
+
+def _uncapital(text: str) -> str:
+    return text if text[:2] in ("I ", "I'") else f"{text[:1].lower()}{text[1:]}"

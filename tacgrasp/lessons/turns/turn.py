@@ -1,0 +1,161 @@
+"""One question of a dialogue after another: what it means, and what the next one follows."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, replace
+
+from tacgrasp.lessons.dialogue.meaning import Description, Meaning, OffTopic, Unknowable, Why
+from tacgrasp.lessons.dialogue.query import query_of
+from tacgrasp.lessons.read_question import ReadQuestion
+from tacgrasp.lessons.turns.follow_ups import (
+    about_the_force,
+    asks_by_how_much,
+    difference_of,
+    in_another_unit,
+    leaves_unit_out,
+    of_supposed_force,
+    with_quantity_of,
+)
+from tacgrasp.lessons.turns.rewriting import rewritten, with_noun
+from tacgrasp.lessons.turns.told import Told, told_in
+from tacgrasp.lessons.understanding import (
+    CALCULATED_CONFIDENCE,
+    QueryWriter,
+    doubted,
+    read_by_model,
+    understood,
+    understood_by_grammar,
+    understood_by_model,
+)
+
+FOLLOW_UP_WORDS = 5
+"""Longest question [words] that may be a follow-up without beginning as one. Our choice."""
+
+ALONE_FROM = 0.5
+"""Confidence from which a question that does not begin as a follow-up is none. Our choice."""
+
+_FOLLOWS = re.compile(r"(?:and|but|then|why|how come|what about|how about|same)\b", re.I)
+_STANDS_ALONE = re.compile(
+    r"(?:is|are|isn't|aren't|was|were|does|do|did|has|have|had|can|could|will|would|shall|should|"
+    r"may|might|must)"
+    r"(?: \S+){2}",
+    re.I,
+)
+"""A question with subject and verb: 'Is it round?' follows nothing, 'Is it?' may."""
+
+_ASKS_WHY = re.compile(
+    r"\b(?:why|how come|how so|reason|because|cause|what makes|explain|how do you know|what for|"
+    r"on what|sure|certain|really|based|evidence|justify|grounds)\b",
+    re.I,
+)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Turn:
+    """A question of a dialogue.
+
+    Attributes:
+        read: What it means; None where it came to nothing.
+        text: The question as it stands alone, for the next one to follow; '' before the first.
+        about: What was last asked for, a word, number or condition; None before the first.
+        told: What the question tells besides: a mass, a band or a limit; None where it tells none.
+    """
+
+    read: ReadQuestion | None = None
+    text: str = ""
+    about: Meaning | None = None
+    told: Told | None = None
+
+    def then(self, text: str, read: ReadQuestion | None) -> Turn:
+        """The turn after this; what came to nothing, or asks why, is nothing to follow."""
+        if read is None or isinstance(read.meaning, Unknowable | OffTopic):
+            return Turn(read=read, text=self.text or text, about=self.about)
+        about = self.about if isinstance(read.meaning, Why | Description) else read.meaning
+        return Turn(read=read, text=text, about=about)
+
+
+def next_turn(writer: QueryWriter, question: str, before: Turn) -> Turn:
+    """What a question of a dialogue means.
+
+    First it is written anew with the words before it, where the grammar reads that. Then the
+    meaning before it completes it. Else it is read as it stands, or by the model behind the
+    question before it where it is short and means little alone.
+
+    Args:
+        writer: The model, which is asked where the grammar has not the wording.
+        question: The question.
+        before: The turn before it.
+    """
+    if (telling := _telling(question, before)) is not None:
+        return telling
+    if not before.text:
+        return before.then(question, understood(writer, question))
+    for text in rewritten(question, before.text, before.about):
+        if (telling := _telling(text, before)) is not None:
+            return telling
+        read = understood_by_grammar(text)
+        if read is not None and not isinstance(read.meaning, Unknowable | OffTopic):
+            return before.then(text, read)
+    if before.about is not None and (read := _by_meaning(question, before.text, before.about)):
+        return before.then(before.text, read)
+    if named := with_noun(question, before.about):
+        return before.then(named, understood_by_model(writer, named))
+    return _read_behind(writer, question, before)
+
+
+def _telling(text: str, before: Turn) -> Turn | None:
+    """A turn that tells something, with or without a question about it; None of others."""
+    if understood_by_grammar(text) is not None or (found := told_in(text)) is None:
+        return None
+    told, asked = found
+    read = understood_by_grammar(asked) if asked else None
+    if asked and read is None:
+        return None
+    return replace(before.then(text if asked else before.text, read), told=told)
+
+
+def _by_meaning(question: str, before: str, about: Meaning) -> ReadQuestion | None:
+    """A follow-up that takes its other side, its unit or its quantity from what was meant."""
+    meaning: Meaning | None = None
+    if asks_by_how_much(question):
+        meaning = difference_of(about)
+    elif leaves_unit_out(question) and (named := with_quantity_of(question, about)):
+        return understood_by_grammar(named)
+    elif understood_by_grammar(question, before) is None:
+        meaning = in_another_unit(question, about)
+    if (
+        meaning is None
+        and (of_force := about_the_force(question))
+        and (read := understood_by_grammar(of_force))
+    ):
+        meaning = of_supposed_force(read.meaning, about)
+    if meaning is None:
+        return None
+    return ReadQuestion(query_of(meaning), meaning, CALCULATED_CONFIDENCE)
+
+
+def _read_behind(writer: QueryWriter, question: str, before: Turn) -> Turn:
+    """A question as it stands, or behind the one before it."""
+    if _FOLLOWS.match(question):
+        read = understood(writer, question, before.text)
+        return before.then(before.text, _asked_for(question, read))
+    if known := understood_by_grammar(question):
+        return before.then(question, known)
+    if known := understood_by_grammar(question, before.text):
+        return before.then(before.text, known)
+    alone = read_by_model(writer, question)
+    stands_alone = alone is not None and alone.confidence >= ALONE_FROM
+    stands_alone = stands_alone or bool(_STANDS_ALONE.match(question))
+    if stands_alone or len(question.split()) > FOLLOW_UP_WORDS:
+        return before.then(question, _asked_for(question, doubted(question, alone)))
+    behind = _asked_for(question, read_by_model(writer, question, before.text))
+    if behind is not None and (alone is None or behind.confidence > alone.confidence):
+        return before.then(before.text, doubted(question, behind))
+    return before.then(question, _asked_for(question, doubted(question, alone)))
+
+
+def _asked_for(question: str, read: ReadQuestion | None) -> ReadQuestion | None:
+    """What was read by the model, unless it is a reason that nobody asked for."""
+    is_reason = read is not None and isinstance(read.meaning, Why)
+    return None if is_reason and not _ASKS_WHY.search(question) else read

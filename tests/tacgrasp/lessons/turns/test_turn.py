@@ -1,0 +1,200 @@
+"""What the questions of a dialogue mean, one after another."""
+
+from __future__ import annotations
+
+import pytest
+
+from tacgrasp.lessons.answering import answered
+from tacgrasp.lessons.dialogue.query import read_query
+from tacgrasp.lessons.read_question import ReadQuestion
+from tacgrasp.lessons.turns import turn as turns
+from tacgrasp.lessons.turns.follow_ups import difference_of
+from tacgrasp.lessons.turns.turn import Turn, next_turn
+from tacgrasp.lessons.understanding import understood_by_grammar
+from tests.fakes.question_scenes import HELD
+
+
+class Refusing:
+    """A model that must not be asked."""
+
+    width = 8
+
+    def reply_to(self, touch, prompt, *, grammar):
+        raise AssertionError(f"the model was asked {prompt!r}")
+
+
+def last_turn(*questions: str) -> Turn:
+    """The turn of the last of some questions."""
+    turn = Turn()
+    for question in questions:
+        turn = next_turn(Refusing(), question, turn)
+    return turn
+
+
+def answers(*questions: str) -> str:
+    """The answer to the last of some questions about what is held."""
+    return answered(last_turn(*questions).read, HELD).answer.text
+
+
+@pytest.mark.parametrize(
+    ("before", "question", "query"),
+    [
+        ("How deep is it?", "And in microns?", "amount depth µm."),
+        ("Is it above the limit?", "By how much?", "calculate abs(force_n - (limit_n)) in N."),
+        (
+            "Is the force within the band?",
+            "by how much",
+            "calculate max(0, band_low_n - force_n, force_n - band_high_n) in N.",
+        ),
+        (
+            "Is it deeper than 0.2 mm?",
+            "How much less?",
+            "calculate abs(depth_mm - (0.2)) in mm.",
+        ),
+        (
+            "How far is it from the middle?",
+            "And from the left edge?",
+            "calculate pad_width_mm / 2 + x_mm in mm.",
+        ),
+        ("Is the force above 1 N?", "And below the limit?", "check force under."),
+        ("Is it in the left half?", "And in the top half?", "check top."),
+        ("How deep is it in microns?", "Is that more than 50?", "check depth > #1 µm."),
+        ("What is the force in grams?", "Is it more than 100?", "check force > #1 g."),
+        ("What if I add 0.2 N?", "And 0.9 N?", "calculate force_n + 0.9 in N."),
+        ("What if I add 0.9 N?", "Is that over the limit?", "calculate force_n + 0.9 > limit_n."),
+        (
+            "If I double the force, is it over the limit?",
+            "and if I halve it?",
+            "calculate 0.5 * force_n > limit_n.",
+        ),
+        ("What is the limit?", "Are we over it?", "check force over."),
+        ("What is the limit?", "How much of it do we use?", "amount used %."),
+        ("What is the band?", "Are we in it?", "check force within."),
+        ("Does it touch the left edge?", "And the right?", "check cut right."),
+        ("Does it run off the pad?", "Which edge?", "word cut_sides."),
+        ("Which edge cuts it?", "And the left one?", "check cut left."),
+        ("What next?", "how far?", "amount distance mm."),
+        (
+            "How much force is needed for 100 g?",
+            "Would that break the limit?",
+            "calculate (gram_n * 100) > limit_n.",
+        ),
+        ("Will it hold 60 g?", "and 65?", "check stays #1 g."),
+    ],
+)
+def test_a_follow_up_is_completed_by_the_question_before_it(before, question, query):
+    assert last_turn(before, question).read.query == query
+
+
+@pytest.mark.parametrize(
+    ("questions", "query"),
+    [
+        (
+            ("What if I add 0.2 N?", "Is that over the limit?", "And 0.9 N?"),
+            "calculate force_n + 0.9 > limit_n.",
+        ),
+        (
+            ("How far is it from the right edge?", "and from the left?", "and from the top?"),
+            "calculate pad_height_mm / 2 - y_mm in mm.",
+        ),
+        (
+            ("Is it below the limit?", "by how much?", "in grams?"),
+            "calculate (abs(force_n - (limit_n))) / 0.00980665 in g.",
+        ),
+    ],
+)
+def test_several_follow_ups_in_a_row_lose_nothing(questions, query):
+    assert last_turn(*questions).read.query == query
+
+
+def test_a_supposed_force_is_told_in_the_answer():
+    text = answers("What if I add 0.9 N?", "Is that over the limit?")
+    assert text == "Yes, the force would be 1.73 N, the limit is 1.30 N."
+    text = answers("What if I add 0.1 N?", "Is that within the band?")
+    assert text.startswith("Yes, the force would be 0.93 N, ")
+
+
+def test_a_question_that_stands_alone_follows_nothing():
+    turn = last_turn("What if I add 0.9 N?", "What shape is it?")
+    assert turn.read.query == "word shape."
+    assert turn.text == "What shape is it?"
+    assert next_turn(Refusing(), "Is it deep?", turn).read.query == "check depth deep."
+
+
+@pytest.mark.parametrize(
+    ("question", "told", "query"),
+    [
+        ("The object weighs 50 g.", "the object weighs 50 g", None),
+        ("it weighs 0.05 kg", "the object weighs 50 g", None),
+        ("The limit is 900 mN.", "the limit is 0.9 N", None),
+        ("The band is 1 to 2 N.", "the force band is 1 to 2 N", None),
+        (
+            "If the band is 1 to 2 N, is it safe to lift?",
+            "the force band is 1 to 2 N",
+            "check force within.",
+        ),
+    ],
+)
+def test_what_is_told_is_kept_beside_what_is_asked(question, told, query):
+    turn = last_turn(question)
+    assert turn.told is not None
+    assert turn.told.text == told
+    assert (turn.read.query if turn.read else None) == query
+
+
+@pytest.mark.parametrize("question", ["The limit is 900 mm.", "Is the object 50 g?", "It is deep."])
+def test_what_is_no_mass_or_bound_is_not_told(question, monkeypatch):
+    monkeypatch.setattr(turns, "understood", lambda *_: None)
+    assert next_turn(Refusing(), question, Turn()).told is None
+
+
+@pytest.fixture
+def confidences(monkeypatch):
+    """Confidences of what a model reads, by the question and that before it."""
+    known = {}
+
+    def read(writer, question, before=""):
+        query = "amount depth µm." if before else "other."
+        return ReadQuestion(query, read_query(query), known[question, before])
+
+    monkeypatch.setattr(turns, "read_by_model", read)
+    monkeypatch.setattr(turns, "understood_by_grammar", lambda *_: None)
+    monkeypatch.setattr(turns, "understood", lambda writer, *asked: read(writer, *asked))
+    return known
+
+
+BEFORE = Turn(text="How deep is it?")
+
+
+@pytest.mark.parametrize(
+    ("question", "alone", "behind", "query"),
+    [
+        ("And in microns?", 1.0, 0.1, "amount depth µm."),  # begins as a follow-up
+        ("In microns?", 0.3, 0.8, "amount depth µm."),  # the likelier of two
+        ("What a day!", 0.8, 0.3, "other."),
+        ("Who won the final match in Paris last night?", 0.2, 0.9, "other."),  # too long for one
+        ("Has it moved?", 0.3, 0.9, "other."),  # has a verb of its own
+    ],
+)
+def test_what_the_grammar_lacks_is_read_behind_the_question_before(
+    question, alone, behind, query, confidences
+):
+    confidences |= {(question, ""): alone, (question, BEFORE.text): behind}
+    assert next_turn(None, question, BEFORE).read.query == query
+
+
+def test_without_a_question_before_nothing_follows(confidences):
+    confidences["And in microns?", ""] = 0.5
+    assert next_turn(None, "And in microns?", Turn()).read.query == "other."
+
+
+def test_a_reason_that_nobody_asked_for_is_no_answer(monkeypatch):
+    why = ReadQuestion("why shape.", read_query("why shape."), 0.9)
+    monkeypatch.setattr(turns, "understood", lambda *_: why)
+    assert next_turn(None, "And the other flurb?", BEFORE).read is None
+    assert next_turn(None, "And the reason?", BEFORE).read is why
+
+
+def test_what_compares_no_numbers_has_no_difference():
+    assert difference_of(understood_by_grammar("Is it a sphere?").meaning) is None
+    assert difference_of(understood_by_grammar("How deep is it?").meaning) is None
