@@ -22,6 +22,7 @@ from tacgrasp.lessons.dialogue.answers import Answer, answer
 from tacgrasp.lessons.dialogue.expression import Expression
 from tacgrasp.lessons.dialogue.meaning import (
     AnswerKind,
+    Description,
     Meaning,
     Several,
     names_of,
@@ -106,7 +107,9 @@ def _answered(
     given = answer(asked.meaning, scene)
     if isinstance(asked.meaning, Several) and given.decidable and scene.state.in_contact:
         return _answered_together(asked, asked.meaning, given, scene, words, ends)
-    told = [(words or {}).get(name, 1.0) for name in names_of(asked.meaning)]
+    # a description says the shape too, where there is one
+    also = ("shape", "texture") if isinstance(asked.meaning, Description) else ()
+    told = [(words or {}).get(name, 1.0) for name in (*names_of(asked.meaning), *also)]
     interval, holds, holds_well = None, 1.0, True
     if given.decidable and given.value is not None and scene.state.in_contact and ends:
         told_of = ((each, answer(asked.meaning, each).value) for each in _possible(scene, ends))

@@ -54,6 +54,7 @@ from tacgrasp.lessons.dialogue.query import (
     query_of,
     read_query,
 )
+from tacgrasp.lessons.dialogue.rules.friction import frictional
 from tacgrasp.lessons.dialogue.rules.ruled import ruled_whole
 from tacgrasp.lessons.dialogue.rules.unread import is_beyond
 from tacgrasp.lessons.dialogue.sided_questions import to_named_side
@@ -193,7 +194,8 @@ def understood_by_grammar(question: str, before: str = "") -> ReadQuestion | Non
 def _composed(question: str) -> Meaning | None:
     """What a question means by the first reader that accounts for all of it."""
     return (
-        replied(question)
+        frictional(question)
+        or replied(question)
         or (calculated(question) if begins_supposed(question) else None)
         or chosen(question)
         or judged_as_one(question)

@@ -17,16 +17,18 @@ from cltp.tactile.contact.single_cloud import is_touched
 from cltp.tactile.encoder_input import encoder_input
 from cltp.tactile.states import NO_CONTACT_STATE
 from policies.llm.spoken import SpokenContact, spoken_contact
+from primitives import Primitive
 from primitives.contract import Contract
 from primitives.errors import LimitError
 from tacgrasp.lessons.answering import Answered, answered
 from tacgrasp.lessons.dialogue.answers import Answer
 from tacgrasp.lessons.dialogue.conditions import IN_BAND
 from tacgrasp.lessons.dialogue.facts import ACTIONS, REASONS
-from tacgrasp.lessons.dialogue.meaning import AnswerKind, Check, Meaning, kind_of
+from tacgrasp.lessons.dialogue.meaning import AnswerKind, Check, Meaning, Which, kind_of
 from tacgrasp.lessons.dialogue.scene import HOLD, LIFT, AskedScene
 from tacgrasp.lessons.read_question import ReadQuestion
 from tacgrasp.lessons.turns.certainty import LAST, doubted_by
+from tacgrasp.lessons.turns.follow_ups import asks_by_how_much
 from tacgrasp.lessons.turns.told import with_told
 from tacgrasp.lessons.turns.turn import Turn, next_turn
 from tacgrasp.lessons.understanding import understood_by_grammar
@@ -66,6 +68,16 @@ class Spoken:
             "flags": list(self.flags),
         }
 
+
+_HOW_MUCH = {
+    Primitive.INCREASE_FORCE.value: "How far are we below the band?",
+    Primitive.DECREASE_FORCE.value: "By how much is the force above the band?",
+    **dict.fromkeys(
+        (each.value for each in Primitive if each.value.startswith("move_")),
+        "How far is it from the middle of the pad?",
+    ),
+}
+"""What a step of the advice lacks, by its name."""
 
 _WHY = re.compile(
     r"(?:and |but |so )?(?:why(?: not| is that| can'?t you(?: say| tell)?)?|how come)[?.! ]*", re.I
@@ -133,7 +145,9 @@ class Conversation:
             )
         if told := self._certainty(question) or self._reason_of_none(question):
             return told
-        self._turn = next_turn(self._talker, question, self._turn)
+        if refuted := refuted_premise(question, self._scene):
+            return self._spoken(refuted)
+        self._turn = next_turn(self._talker, self._in_full(question), self._turn)
         try:
             scene = self._scene_of(self._turn)
         except (ValueError, LimitError) as error:
@@ -146,6 +160,14 @@ class Conversation:
         self._last = self._answered(question, self._turn.read, scene)
         return self._last
 
+    def _in_full(self, question: str) -> str:
+        """What 'by how much?' asks behind advice; any other question as it is."""
+        about = self._turn.about
+        is_step = isinstance(about, Which) and about.name == "action"
+        if not (is_step and asks_by_how_much(question)):
+            return question
+        return _HOW_MUCH.get(action_of(self._scene), question)
+
     def _scene_of(self, turn: Turn) -> AskedScene:
         """The scene with what a question tells, for that question alone."""
         return self._scene if turn.told is None else with_told(self._scene, turn.told)
@@ -153,9 +175,7 @@ class Conversation:
     def _answered(self, question: str, asked: ReadQuestion | None, scene: AskedScene) -> Spoken:
         given = answered(asked, scene, self._words, self._ends)
         answer = given.answer
-        if refuted := refuted_premise(question, scene):
-            answer = refuted
-        elif asked is not None and advises_first(question, asked.meaning, answer, scene):
+        if asked is not None and advises_first(question, asked.meaning, answer, scene):
             first = f"{ACTIONS[action_of(scene)]} first: {REASONS[reason_of(scene)]}"
             answer = replace(answer, text=f"{answer.text.rstrip('.')}, but {first}.")
         return self._spoken(answer, given, "" if asked is None else asked.query)

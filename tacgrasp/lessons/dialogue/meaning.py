@@ -231,7 +231,7 @@ def truth_of(meaning: Meaning) -> str:
             reasons = [FACTS[fact] for fact in shows] or ["reason"]
             return "; ".join(["action", *reasons] if with_action else reasons)
         case Description():
-            return "shape; texture; depth; position; area"
+            return "depth; position; area"
     return ""
 
 

@@ -15,7 +15,17 @@ from dataclasses import replace
 
 from tacgrasp.lessons.dialogue.conditions import IN_BAND, OUTSIDE_BAND
 from tacgrasp.lessons.dialogue.expression import Expression
-from tacgrasp.lessons.dialogue.meaning import Amount, Calculated, Check, Meaning, truth_of
+from tacgrasp.lessons.dialogue.facts import FACT_OF
+from tacgrasp.lessons.dialogue.meaning import (
+    FACTS,
+    Amount,
+    Calculated,
+    Check,
+    Meaning,
+    Which,
+    Why,
+    truth_of,
+)
 from tacgrasp.lessons.dialogue.quantities import GRAVITY_N_PER_G, QUANTITIES, UNITS, unit_of_name
 from tacgrasp.lessons.turns.rewriting import unit_symbol
 
@@ -120,3 +130,18 @@ def of_supposed_force(asked: Meaning, supposed: Meaning) -> Calculated | None:
     if "force_n" not in condition:
         return None
     return Calculated(truth=re.sub(r"\bforce_n\b", f"({force})", condition), unit=None)
+
+
+def reason_of(asked: Meaning) -> Why | None:
+    """The reason of an answer; None of what has none but itself."""
+    match asked:
+        case Check(shows=shows):
+            return Why(shows=tuple(name for name in shows if name in FACTS))
+        case Which(name="action"):
+            return Why()
+        case Amount(quantity=quantity) if quantity in FACTS:
+            return Why(shows=(quantity,))
+        case Calculated(truth=truth):
+            shown = (FACT_OF[name] for name in Expression(truth).names if name in FACT_OF)
+            return Why(shows=tuple(dict.fromkeys(shown)))
+    return None

@@ -39,7 +39,7 @@ _UNIT_WORDS = {
     "kPa": r"kPa|kilopascals?",
 }
 _NUMBER = rf"(?P<number>\d+(?:[.,]\d+)?)(?:\s*(?P<unit>{'|'.join(_UNIT_WORDS.values())})(?!\w))?"
-_STATED = re.compile(rf"(?<![\w.,]){_NUMBER}(?![\w.])", re.I)
+_STATED = re.compile(rf"(?<![\w.,]){_NUMBER}(?!\w|\.\d)", re.I)
 _ANOTHER_NUMBER = re.compile(
     rf"{_LEAD}(?:if (?:i|we|you) )?(?:(?:add|added|by|with|for|at|to|of|over|above|below|under|"
     rf"(?:more|less) than|it's|it is|it were|it weighs|only|a|an|about)\s+)*{_NUMBER}{_END}",
@@ -84,7 +84,7 @@ _BY_HOW_MUCH_TO = re.compile(
     re.I,
 )
 _HOW_FAR = re.compile(
-    r"(?:and |but |ok )?(?:by )?how (?:far|much|many (?:mm|millimet(?:re|er)s))"
+    r"(?:and |but |ok )?(?:by )?how (?:far|many (?:mm|millimet(?:re|er)s))"
     r"(?: (?:do|must|should|would) (?:i|we|you|it)(?: have to| need to)?(?: move)?"
     r"(?: it| that way)?)?[?.! ]*",
     re.I,
@@ -118,8 +118,15 @@ _CALLED = {
 """Quantities that a pronoun may stand for behind a preposition, as questions call them."""
 
 
-def rewritten(question: str, before: str, meant: Meaning | None) -> Iterator[str]:
-    """What a follow-up may be in full, by the question before it and its meaning."""
+def rewritten(question: str, before: str, meant: Meaning | None, noun: str) -> Iterator[str]:
+    """What a follow-up may be in full.
+
+    Args:
+        question: The follow-up.
+        before: The question before it, as it stands alone.
+        meant: What that means; None where that is not known.
+        noun: What a pronoun may stand for; '' for nothing.
+    """
     question = question.strip()
     for text in (
         *_about_place(question, before, meant),
@@ -127,7 +134,7 @@ def rewritten(question: str, before: str, meant: Meaning | None) -> Iterator[str
         *_with_another_supposition(question, before),
         _under_supposition(question, before),
         _with_another_side(question, before),
-        with_noun(question, meant),
+        with_noun(question, noun),
         _completed(question, before),
     ):
         if text and text != question:
@@ -222,13 +229,16 @@ def _with_another_side(question: str, before: str) -> str:
     return f"{before[: places[0].start()]}{asked['side'].lower()}{before[places[0].end() :]}"
 
 
-def with_noun(question: str, meant: Meaning | None) -> str:
-    """A question with the name of what was asked for in place of the pronoun; '' of others."""
+def noun_of(meant: Meaning) -> str:
+    """What a pronoun may stand for after something was asked: 'the limit'; '' for nothing."""
     if isinstance(meant, Several) and all(isinstance(part, Amount) for part in meant.parts):
         names = {part.quantity for part in meant.parts if isinstance(part, Amount)}
-        noun = "the band" if names == {"band_low", "band_high"} else ""
-    else:
-        noun = _CALLED.get(meant.quantity, "") if isinstance(meant, Amount) else ""
+        return "the band" if names == {"band_low", "band_high"} else ""
+    return _CALLED.get(meant.quantity, "") if isinstance(meant, Amount) else ""
+
+
+def with_noun(question: str, noun: str) -> str:
+    """A question with a noun in place of the pronoun behind a preposition; '' of others."""
     if not noun or _OBJECT.search(question) is None:
         return ""
     return _OBJECT.sub(lambda found: f"{found['before']} {noun}", question)

@@ -15,9 +15,10 @@ from tacgrasp.lessons.turns.follow_ups import (
     in_another_unit,
     leaves_unit_out,
     of_supposed_force,
+    reason_of,
     with_quantity_of,
 )
-from tacgrasp.lessons.turns.rewriting import rewritten, with_noun
+from tacgrasp.lessons.turns.rewriting import noun_of, rewritten, with_noun
 from tacgrasp.lessons.turns.told import Told, told_in
 from tacgrasp.lessons.understanding import (
     CALCULATED_CONFIDENCE,
@@ -44,6 +45,7 @@ _STANDS_ALONE = re.compile(
 )
 """A question with subject and verb: 'Is it round?' follows nothing, 'Is it?' may."""
 
+_WHY = re.compile(r"(?:and |but |so )?(?:why(?: not| so| is that)?|how come)[?.! ]*", re.I)
 _ASKS_WHY = re.compile(
     r"\b(?:why|how come|how so|reason|because|cause|what makes|explain|how do you know|what for|"
     r"on what|sure|certain|really|based|evidence|justify|grounds)\b",
@@ -59,20 +61,29 @@ class Turn:
         read: What it means; None where it came to nothing.
         text: The question as it stands alone, for the next one to follow; '' before the first.
         about: What was last asked for, a word, number or condition; None before the first.
+        noun: What a pronoun may stand for: 'the limit', where that was asked for; ''.
         told: What the question tells besides: a mass, a band or a limit; None where it tells none.
     """
 
     read: ReadQuestion | None = None
     text: str = ""
     about: Meaning | None = None
+    noun: str = ""
     told: Told | None = None
 
-    def then(self, text: str, read: ReadQuestion | None) -> Turn:
-        """The turn after this; what came to nothing, or asks why, is nothing to follow."""
+    def then(self, text: str, read: ReadQuestion | None, *, is_whole: bool = False) -> Turn:
+        """The turn after this; what came to nothing, or asks why, is nothing to follow.
+
+        Args:
+            text: The next question as it stands alone.
+            read: What it means; None where it came to nothing.
+            is_whole: Whether it leaves nothing to those before it.
+        """
         if read is None or isinstance(read.meaning, Unknowable | OffTopic):
-            return Turn(read=read, text=self.text or text, about=self.about)
+            return replace(self, read=read, text=self.text or text, told=None)
         about = self.about if isinstance(read.meaning, Why | Description) else read.meaning
-        return Turn(read=read, text=text, about=about)
+        noun = noun_of(read.meaning) or ("" if is_whole else self.noun)
+        return Turn(read=read, text=text, about=about, noun=noun)
 
 
 def next_turn(writer: QueryWriter, question: str, before: Turn) -> Turn:
@@ -91,7 +102,7 @@ def next_turn(writer: QueryWriter, question: str, before: Turn) -> Turn:
         return telling
     if not before.text:
         return before.then(question, understood(writer, question))
-    for text in rewritten(question, before.text, before.about):
+    for text in rewritten(question, before.text, before.about, before.noun):
         if (telling := _telling(text, before)) is not None:
             return telling
         read = understood_by_grammar(text)
@@ -99,7 +110,7 @@ def next_turn(writer: QueryWriter, question: str, before: Turn) -> Turn:
             return before.then(text, read)
     if before.about is not None and (read := _by_meaning(question, before.text, before.about)):
         return before.then(before.text, read)
-    if named := with_noun(question, before.about):
+    if named := with_noun(question, before.noun):
         return before.then(named, understood_by_model(writer, named))
     return _read_behind(writer, question, before)
 
@@ -124,6 +135,7 @@ def _by_meaning(question: str, before: str, about: Meaning) -> ReadQuestion | No
         return understood_by_grammar(named)
     elif understood_by_grammar(question, before) is None:
         meaning = in_another_unit(question, about)
+        meaning = meaning or (reason_of(about) if _WHY.fullmatch(question.strip()) else None)
     if (
         meaning is None
         and (of_force := about_the_force(question))
@@ -141,14 +153,15 @@ def _read_behind(writer: QueryWriter, question: str, before: Turn) -> Turn:
         read = understood(writer, question, before.text)
         return before.then(before.text, _asked_for(question, read))
     if known := understood_by_grammar(question):
-        return before.then(question, known)
+        return before.then(question, known, is_whole=True)
     if known := understood_by_grammar(question, before.text):
         return before.then(before.text, known)
     alone = read_by_model(writer, question)
     stands_alone = alone is not None and alone.confidence >= ALONE_FROM
     stands_alone = stands_alone or bool(_STANDS_ALONE.match(question))
     if stands_alone or len(question.split()) > FOLLOW_UP_WORDS:
-        return before.then(question, _asked_for(question, doubted(question, alone)))
+        read = _asked_for(question, doubted(question, alone))
+        return before.then(question, read, is_whole=True)
     behind = _asked_for(question, read_by_model(writer, question, before.text))
     if behind is not None and (alone is None or behind.confidence > alone.confidence):
         return before.then(before.text, doubted(question, behind))

@@ -202,11 +202,11 @@ def test_follow_ups_of_a_dialogue_are_put_with_the_question_before(
     capsys: pytest.CaptureFixture[str],
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    lines = iter(["What should I do next?", "Hallo Welt", "And why?", ""])
+    lines = iter(["What should I do next?", "Hallo Welt", "And otherwise?", ""])
     monkeypatch.setattr("builtins.input", lambda prompt: next(lines))
     monkeypatch.setattr("sys.stdin", Typed("", terminal=True))
     assert main(["ask", touch]) == 0
-    assert talker.prompts == ["what should i do next", "what should i do next ? and why"]
+    assert talker.prompts == ["what should i do next", "what should i do next ? and otherwise"]
     assert "ask in plain English\n" in capsys.readouterr().out
 
 

@@ -2,10 +2,12 @@
 
 import pytest
 
+from cltp.errors import TouchError
 from cltp.tactile.shear.slip_calibration import load_slip_calibration
 from sim.grasp.devices import SimGripper
 from tacgrasp.base.errors import UsageError
 from tacgrasp.cli.calibrate_slip import CalibrateSlipFlags, run
+from tacgrasp.rig.gel_sense import GelSense
 
 
 @pytest.mark.parametrize("sensor", ["taxels", "gelsight_mini_markers"])
@@ -41,6 +43,13 @@ def test_ctrl_c_in_a_hold_leaves_the_gripper_open(num_grips, tmp_path, monkeypat
     with pytest.raises(KeyboardInterrupt):
         run(CalibrateSlipFlags(sensor="taxels", hold_s=1.0, out=tmp_path / "slip.json"))
     assert [state.closed for state in opens] == [False]
+
+
+def test_fingers_that_hold_nothing_calibrate_nothing(tmp_path, monkeypatch):
+    monkeypatch.setattr(GelSense, "read_contact", lambda self: False)
+    with pytest.raises(TouchError, match="nothing is felt at 1 N"):
+        run(CalibrateSlipFlags(sensor="taxels", hold_s=1.0, out=tmp_path / "slip.json"))
+    assert not (tmp_path / "slip.json").exists()
 
 
 @pytest.mark.parametrize(

@@ -300,3 +300,11 @@ def test_an_emulated_array_has_the_sensor_of_the_run_unless_its_file_names_one(
     named.write_text(shipped.replace("kind: taxels", "kind: taxels\n    sensor: gelsight_mini"))
     with pytest.raises(UsageError, match=r"sensor taxels is not what hardware\.sensor is"):
         configure(["--rig", str(named), "--sensor", "taxels"])
+
+
+@pytest.mark.parametrize("kind", ["task", "rig"])
+def test_an_empty_name_is_no_default(kind: str) -> None:
+    with pytest.raises(UsageError, match=f"--{kind} is empty; name a {kind}"):
+        load(**{kind: ""})
+    with pytest.raises(UsageError, match=f"TACGRASP_{kind.upper()} is empty"):
+        load(environment={f"TACGRASP_{kind.upper()}": ""})

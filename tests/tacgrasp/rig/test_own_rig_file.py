@@ -290,6 +290,31 @@ def test_a_run_is_refused_while_the_gripper_still_grips_and_jog_opens_it(
         after_run.disconnect()
 
 
+def test_a_gripper_opens_alone_while_the_arm_is_stopped_and_the_sensor_silent(
+    rig, emulators, tmp_path, capsys
+):
+    settings = DynamixelSettings.model_validate(rig["hardware"]["gripper"])
+    before = connect_gripper(settings, folder=tmp_path)
+    before.grip(0.3)
+    before.disconnect()
+    emulators.control.inject("ur", "protective_stop")
+    emulators.control.inject("taxels", "stall")
+    path = tmp_path / "mine.yaml"
+    path.write_text(yaml.safe_dump(rig))
+    assert main(["jog", "--rig", str(path), "--open"]) == 0
+    assert "the gripper is open: " in capsys.readouterr().out
+    assert emulators.control.facts("dynamixel")["width_m"] > 0.03
+
+
+def test_a_grip_that_jogging_leaves_is_told(rig, tmp_path, capsys, monkeypatch):
+    path = tmp_path / "mine.yaml"
+    path.write_text(yaml.safe_dump(rig))
+    monkeypatch.setattr("sys.stdin", io.StringIO("g"))
+    assert main(["jog", "--rig", str(path)]) == 0
+    assert "the gripper keeps its grip: " in capsys.readouterr().out
+    assert main(["jog", "--rig", str(path), "--open"]) == 0
+
+
 def test_a_port_that_is_another_devices_is_refused(rig, emulators, tmp_path, capsys):
     rig["hardware"]["gripper"]["port"] = emulators.ready["sensor_port"]
     rig["hardware"]["sensor"] |= {"port": emulators.ready["gripper_port"], "connect_timeout_s": 1}

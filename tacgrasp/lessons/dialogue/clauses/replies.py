@@ -34,15 +34,23 @@ _OTHERWISE = (
     rf"{_QUOTE}(?P<b>[\w-]+(?: [\w-]+)?){_QUOTE}[.?!\s]*"
 )
 _WORD = rf"{_QUOTE}(?P<a>[\w-]+(?: [\w-]+)?){_QUOTE}"
-_WHEN = r"(?:if|when|where|in case|as long as|provided(?: that)?)"
+_WHEN = r"(?:only )?(?:if|when|where|in case|as long as|provided(?: that)?)"
 _REPLIES = tuple(
     re.compile(pattern, re.I | re.S)
     for pattern in (
         rf"(?:please\s+)?{_SAY}\s+{_WORD}\s+{_WHEN}\s+(?P<if>.+?){_LAST}",
         rf"(?:please\s+)?{_SAY}\s+{_WORD}\s+{_WHEN}\s+(?P<if>.+?){_OTHERWISE}",
         rf"{_WHEN}\s+(?P<if>.+?),?\s+(?:then\s+)?{_SAY}\s+{_WORD}{_OTHERWISE}",
+        rf"unless\s+(?P<unless>.+?),?\s+(?:then\s+)?{_SAY}\s+{_WORD}{_OTHERWISE}",
     )
 )
+_WHICH = re.compile(
+    r"(?<=[.?!'\"”’])\s*(?:which(?: (?:is it|one|word|do you say))?|what is it|what do you say|"
+    rf"{_QUOTE}[\w-]+{_QUOTE} or {_QUOTE}[\w-]+{_QUOTE})\s*\?\s*$",
+    re.I,
+)
+"""What asks once more behind it: 'Which is it?', 'Accept or reject?'."""
+
 _TWO = re.compile(
     rf"(?:please\s+)?{_SAY}\s+{_WORD}\s+{_WHEN}\s+(?P<if>.+?)(?:[,;.]\s*|\s+)(?:(?:and|or|but)\s+)?"
     rf"(?:{_SAY}\s+)?{_QUOTE}(?P<b>[\w-]+){_QUOTE}\s+{_WHEN}\s+(?P<else>.+)",
@@ -61,11 +69,14 @@ _YES, _NO = ("yes", "true"), ("no", "false")
 
 def replied(question: str) -> Calculated | None:
     """What a question means that says itself what to reply; None of other questions."""
-    text = " ".join(question.split())
+    text = _WHICH.sub("", " ".join(question.split()))
     for pattern in _REPLIES:
-        found = pattern.fullmatch(text)
-        if found and (condition := condition_of_statement(found["if"])):
-            return _reply(found["a"], condition, found["b"])
+        if (found := pattern.fullmatch(text)) is None:
+            continue
+        unless = found.groupdict().get("unless")
+        if condition := condition_of_statement(unless or found["if"]):
+            words = (found["b"], found["a"]) if unless else (found["a"], found["b"])
+            return _reply(words[0], condition, words[1])
     if (found := _DEFINED.fullmatch(text)) and found["same"].lower() in (
         found["a"].lower(),
         found["b"].lower(),

@@ -184,7 +184,7 @@ def test_a_grip_on_nothing_is_kept_too_and_fingers_that_open_by_little_are_not_o
     second = servos.gripper()
     assert second.state().closed
     second.open_by(0.002)
-    with pytest.raises(RobotError, match=r"2\.\d mm between the fingers, at least 5 mm.*\(key o\)"):
+    with pytest.raises(RobotError, match=r"2\.\d mm between the fingers, at least 5 mm.*\(key o;"):
         check_open(second)
     second.open_by(0.004)
     check_open(second)

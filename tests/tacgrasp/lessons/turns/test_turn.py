@@ -198,3 +198,25 @@ def test_a_reason_that_nobody_asked_for_is_no_answer(monkeypatch):
 def test_what_compares_no_numbers_has_no_difference():
     assert difference_of(understood_by_grammar("Is it a sphere?").meaning) is None
     assert difference_of(understood_by_grammar("How deep is it?").meaning) is None
+
+
+@pytest.mark.parametrize(
+    ("questions", "query"),
+    [
+        (("What is the limit?", "Are we above it?", "Are we near it?"), "amount headroom N."),
+        (
+            ("What is the limit?", "Is the force over it?", "What percentage of it?"),
+            "amount used %.",
+        ),
+        (("Is it safe to lift?", "Why?"), "why force."),
+    ],
+)
+def test_a_pronoun_stands_for_what_was_asked_for_until_something_else_is(questions, query):
+    assert last_turn(*questions).read.query == query
+
+
+def test_a_number_that_is_told_is_another_one_in_a_follow_up():
+    turn = last_turn("Suppose it weighs 70 g. Will it slip?", "And for 80 g?")
+    assert turn.read.query in ("check slips given.", "check slips #1 g.", "calculate holds_g < 80.")
+    turn = last_turn("If the band is 1 to 2 N, is it safe to lift?", "and 3 N?")
+    assert turn.told.text == "the force band is 1 to 3 N"

@@ -1,0 +1,105 @@
+"""A dialogue about one contact: facts that are told, doubts, premises, and what comes first."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from tacgrasp.lessons.dialogue.scene import band_contract
+from tacgrasp.playback import conversation
+from tacgrasp.playback.conversation import Conversation
+from tests.fakes.loop_fakes import touch
+from tests.fakes.question_scenes import HELD
+
+
+class Refusing:
+    """A model that must not be asked for a query."""
+
+    width = 8
+
+    def reply_to(self, touch, prompt, *, grammar):
+        raise AssertionError(f"the model was asked {prompt!r}")
+
+
+@pytest.fixture
+def talk(monkeypatch):
+    """Begins a dialogue about a state that is felt."""
+
+    def begin(state=HELD.state, *, mass_g=None, shape=0.7):
+        monkeypatch.setattr(conversation, "is_touched", lambda cloud: False)
+        monkeypatch.setattr(conversation, "zero_flags", lambda cloud: ())
+        contract = band_contract(0.6, 1.0, 1.3)
+        talk = Conversation(touch(), Refusing(), contract=contract, mass_g=mass_g)
+        talk._scene = replace(talk._scene, state=state)
+        talk._words = {"shape": shape}
+        talk._ends = {"depth_mm": (0.15, 0.25), "force_n": (0.5, 1.4)}
+        return lambda *lines: [talk.ask(line).answer.text for line in lines][-1]
+
+    return begin
+
+
+def test_a_mass_that_is_told_counts_from_then_on(talk):
+    ask = talk()
+    assert ask("Will it slip?") == "I can't say: no mass is given."
+    assert ask("Why?") == "Because no mass is given."
+    assert ask("The object weighs 60 g.") == "Noted: the object weighs 60 g."
+    assert ask("Will it slip?").startswith("Yes")
+    assert ask("What is the mass?") == "60 g."
+
+
+def test_a_band_behind_if_counts_for_that_question_alone(talk):
+    ask = talk()
+    assert "below" in ask("If the band is 2 to 3 N, is it safe to lift?")
+    assert "within" in ask("Is it safe to lift?")
+
+
+def test_a_limit_that_the_band_passes_is_not_taken(talk):
+    ask = talk()
+    assert ask("The limit is 0.8 N.").startswith("I can't take that: ")
+    assert ask("What is the limit?") == "1.30 N."
+
+
+def test_how_sure_an_answer_is_is_told_by_its_interval_or_chances(talk):
+    ask = talk()
+    assert ask("How deep is it?", "Are you sure?").startswith("In nine cases of ten it is between")
+    assert ask("What shape is it?", "How sure are you?").startswith("About 70 % sure: it is")
+    assert ask("What range could the force have?").endswith(" N.")
+    assert ask("How confident are you in the shape?").startswith("About 70 % sure: it is")
+
+
+def test_a_description_is_no_surer_than_its_shape(talk):
+    assert talk()("Describe it.").startswith("A ")
+    assert talk(shape=0.5)("Describe it.").startswith("Probably a ")
+
+
+@pytest.mark.parametrize(
+    ("question", "text"),
+    [
+        ("Why is the force over the limit?", "It is not so: the force is 0.83 N."),
+        ("Why is it so rough?", "It is not so: the surface is "),
+    ],
+)
+def test_a_reason_for_what_is_not_so_is_refused(talk, question, text):
+    assert talk()(question).startswith(text)
+
+
+def test_a_yes_to_a_lift_says_what_comes_first(talk):
+    aside = replace(HELD.state, x_mm=6.5)
+    assert "but move right first: it is off center" in talk(aside)("Should I lift it?")
+    assert "first" not in talk(aside)("Is the force within the band?")
+
+
+@pytest.mark.parametrize(
+    ("changes", "text"), [({"force_n": 0.3}, "0.30 N."), ({"x_mm": 6.0, "y_mm": 0.0}, "6.0 mm.")]
+)
+def test_how_much_a_step_of_the_advice_lacks_is_told(talk, changes, text):
+    ask = talk(replace(HELD.state, **changes))
+    assert ask("What next?", "By how much?").removeprefix("About ") == text
+
+
+def test_why_there_is_no_answer_is_told(talk):
+    ask = talk()
+    assert ask("What does it cost?", "Why?") == (
+        "Because the touch of one fingertip does not tell it."
+    )
