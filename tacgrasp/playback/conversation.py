@@ -143,8 +143,8 @@ class Conversation:
                 query="",
                 flags=self._flags,
             )
-        if told := self._certainty(question) or self._reason_of_none(question):
-            return told
+        if said := self._certainty(question) or self._reason_of_none(question):
+            return said
         if refuted := refuted_premise(question, self._scene):
             return self._spoken(refuted)
         self._turn = next_turn(self._talker, self._in_full(question), self._turn)
@@ -152,11 +152,11 @@ class Conversation:
             scene = self._scene_of(self._turn)
         except (ValueError, LimitError) as error:
             return self._spoken(Answer(text=f"I can't take that: {error}.", kind=AnswerKind.TEXT))
-        if self._turn.read is None and self._turn.told is not None:
+        told = self._turn.told
+        if told is not None and not told.is_supposed:
             self._scene = scene
-            return self._spoken(
-                Answer(text=f"Noted: {self._turn.told.text}.", kind=AnswerKind.TEXT)
-            )
+        if told is not None and self._turn.read is None:
+            return self._spoken(Answer(text=f"Noted: {told.text}.", kind=AnswerKind.TEXT))
         self._last = self._answered(question, self._turn.read, scene)
         return self._last
 
@@ -169,7 +169,7 @@ class Conversation:
         return _HOW_MUCH.get(action_of(self._scene), question)
 
     def _scene_of(self, turn: Turn) -> AskedScene:
-        """The scene with what a question tells, for that question alone."""
+        """The scene with what a question tells."""
         return self._scene if turn.told is None else with_told(self._scene, turn.told)
 
     def _answered(self, question: str, asked: ReadQuestion | None, scene: AskedScene) -> Spoken:

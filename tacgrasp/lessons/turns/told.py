@@ -19,7 +19,8 @@ from tacgrasp.lessons.turns.rewriting import dimension_of, unit_symbol
 _N = r"(?P<{}>\d+(?:[.,]\d+)?)"
 _UNIT = r"(?P<{}>[a-zA-Zµ]+)"
 _IF = (
-    r"(?:(?:if|suppose|supposing|assuming|assume|say|given(?: that)?|let us say|note|ok|no)[,:]? )*"
+    r"(?P<if>(?:(?:if|suppose|supposing|assuming|assume|say|given(?: that)?|let us say|and|what)"
+    r"[,:]? )*)(?:(?:note|ok|no)[,:]? )*"
 )
 _THING = (
     r"(?:it|this|that|the (?:object|berry|strawberry|fruit|egg|tomato|part|thing|piece|peg|mass|"
@@ -47,11 +48,13 @@ class Told:
         mass_g: Mass of the object [g]; None where it was not told.
         band_n: Force band [N]; None likewise.
         limit_n: Limit of the force [N]; None likewise.
+        is_supposed: Whether it counts for one question alone: 'if it weighs 50 g'.
     """
 
     mass_g: float | None = None
     band_n: tuple[float, float] | None = None
     limit_n: float | None = None
+    is_supposed: bool = False
 
     @property
     def text(self) -> str:
@@ -77,7 +80,8 @@ def told_in(text: str) -> tuple[Told, str] | None:
     band_n = None if low_n is None or high_n is None else (low_n, high_n)
     if mass_g is None and limit_n is None and band_n is None:
         return None
-    return Told(mass_g=mass_g, band_n=band_n, limit_n=limit_n), found["asked"] or ""
+    told = Told(mass_g=mass_g, band_n=band_n, limit_n=limit_n, is_supposed=bool(found["if"]))
+    return told, found["asked"] or ""
 
 
 def _number(found: re.Match[str], name: str, dimension: str) -> float | None:

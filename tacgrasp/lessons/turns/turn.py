@@ -121,7 +121,7 @@ def _telling(text: str, before: Turn) -> Turn | None:
         return None
     told, asked = found
     read = understood_by_grammar(asked) if asked else None
-    if asked and read is None:
+    if read is None and (asked or told.is_supposed):
         return None
     return replace(before.then(text if asked else before.text, read), told=told)
 

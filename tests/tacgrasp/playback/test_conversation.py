@@ -48,6 +48,12 @@ def test_a_mass_that_is_told_counts_from_then_on(talk):
     assert ask("What is the mass?") == "60 g."
 
 
+def test_what_is_told_with_a_question_counts_afterwards_too(talk):
+    ask = talk()
+    assert "above" in ask("My band is 0.2 to 0.5 N. Is it safe to lift?")
+    assert "above" in ask("Is it safe to lift?")
+
+
 def test_a_band_behind_if_counts_for_that_question_alone(talk):
     ask = talk()
     assert "below" in ask("If the band is 2 to 3 N, is it safe to lift?")
