@@ -8,8 +8,12 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from importlib import metadata
 from pathlib import Path
 
-from primitives.errors import RobotError
+import numpy as np
+
+from primitives.devices import Pose
+from primitives.errors import LimitError, RobotError
 from primitives.execution import PadAxes
+from primitives.limits import check_workspace
 from tacgrasp.base.errors import UsageError
 from tacgrasp.base.plugins import GROUPS, Plugin, load_plugin, plugins
 from tacgrasp.bringup.soak import soak_findings
@@ -113,7 +117,26 @@ def _file_findings(config: RunConfig) -> list[Finding]:
     )
     axes = PadAxes(x_tcp=config.pad.x_axis, y_tcp=config.pad.y_axis)
     directions = f"x {_listed(axes.x_tcp)}, y {_listed(axes.y_tcp)} in the TCP's frame"
-    return [finding("rig", "limits", True, limits), finding("rig", "pad axes", True, directions)]
+    found = [finding("rig", "limits", True, limits), finding("rig", "pad axes", True, directions)]
+    start = None if config.hardware is None else config.hardware.start
+    if start is None or start.position_m is None or start.rotvec_rad is None:
+        return found
+    return [*found, _start_finding(start.position_m, start.rotvec_rad, config)]
+
+
+def _start_finding(
+    position_m: Sequence[float], rotvec_rad: Sequence[float], config: RunConfig
+) -> Finding:
+    """Whether a run may go to the start pose of the rig's file."""
+    pose = Pose(position_m=np.array(position_m), rotvec_rad=np.array(rotvec_rad))
+    detail = f"{_listed(position_m)} m"
+    try:
+        check_workspace(pose, config.limits())
+    except LimitError as error:
+        advice = "set hardware.start.position_m, in metres, within arm.workspace_low_m and _high_m"
+        detail = f"{detail}: {str(error).partition(';')[0]}"
+        return finding("rig", "start pose", False, detail, advice)
+    return finding("rig", "start pose", True, detail)
 
 
 def _library_findings() -> list[Finding]:

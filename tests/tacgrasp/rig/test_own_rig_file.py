@@ -315,6 +315,17 @@ def test_a_grip_that_jogging_leaves_is_told(rig, tmp_path, capsys, monkeypatch):
     assert main(["jog", "--rig", str(path), "--open"]) == 0
 
 
+def test_doctor_names_a_start_that_a_run_would_refuse(rig, tmp_path, capsys):
+    path = tmp_path / "mine.yaml"
+    for position_m, is_ok in (([0.45, -0.10, 0.20], True), ([450, -100, 200], False)):
+        rig["hardware"]["start"]["position_m"] = position_m
+        path.write_text(yaml.safe_dump(rig))
+        main(["doctor", "--rig", str(path)])
+        (line,) = [x for x in capsys.readouterr().out.splitlines() if " start pose " in x]
+        assert ("NOT OK" not in line) is is_ok
+        assert is_ok or "in metres" in line
+
+
 def test_a_port_that_is_another_devices_is_refused(rig, emulators, tmp_path, capsys):
     rig["hardware"]["gripper"]["port"] = emulators.ready["sensor_port"]
     rig["hardware"]["sensor"] |= {"port": emulators.ready["gripper_port"], "connect_timeout_s": 1}
