@@ -58,6 +58,7 @@ _SLIPS = re.compile(r"\b(?:slip|slide|fall|drop)\b", re.I)
 _STAYS = re.compile(
     r"\b(?:stay|stays|held|hold|holds|carry|carried|enough|suffice\w*|keep|kept|lift|safe)\b", re.I
 )
+_ASKS_WHICH = re.compile(r"\b(?:what|which|how (?:many|much|far|hard))\b", re.I)
 _ASKS_SO = re.compile(r"\b(?:would|will|does|do|is|are|can|could)\b", re.I)
 
 
@@ -87,7 +88,7 @@ def frictional(question: str) -> Calculated | None:
     if _NEEDED.search(rest) and not re.match(r"(?:would|will|is|does)\b", rest, re.I):
         truth = f"{weight_n} / ({contacts} * {float(found['mu']):g})"
         return Calculated(truth=truth, unit=_unit_of(question, "N"))
-    if not _ASKS_SO.search(rest):
+    if not _ASKS_SO.search(rest) or _ASKS_WHICH.search(rest):
         return None
     if _STAYS.search(rest) and not _SLIPS.search(rest):
         return Calculated(truth=f"{held_n} >= {weight_n}", unit=None)

@@ -64,6 +64,11 @@ def test_the_answer_is_coulombs():
     assert told.value == pytest.approx(2 * 0.5 * HELD.state.force_n / 9.80665e-3, rel=0.01)
 
 
+def test_a_number_beside_it_is_no_yes_or_no():
+    question = "With µ = 0.4 and two fingers, how many grams is that beyond what they carry now?"
+    assert frictional(question) is None
+
+
 @pytest.mark.parametrize(
     "question",
     ["What is the coefficient of friction between gel and part?", "How slippery is it?"],
