@@ -53,9 +53,10 @@ MAX_INCREASE, MIN_DECREASE = 2.0, 0.5
 a third, so twice the force of a light grip stays far below the next bruise."""
 
 AT_LIMIT = "the force is already at its limit"
+"""Note of a change of force that sent nothing because of the limits."""
 
 _NOTHING = "nothing"
-"""Note of a change of force that sent nothing because of the limits."""
+"""``Executed.sent`` where no command went to a device."""
 
 OVER = 1.1
 """Factor by which a change of force passes the end of the goal that it goes to. Our choice: the

@@ -8,8 +8,6 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from importlib import metadata
 from pathlib import Path
 
-import numpy as np
-
 from primitives.devices import Pose
 from primitives.errors import LimitError, RobotError
 from primitives.execution import PadAxes
@@ -25,7 +23,7 @@ from tacgrasp.drivers.force_scale import good_finding
 from tacgrasp.drivers.plugin import BASES, driver_refusal
 from tacgrasp.policy_factory import POLICIES, policy_refusal
 from tacgrasp.rig.factory import object_names, object_refusal
-from tacgrasp.rig.hardware import device_findings
+from tacgrasp.rig.hardware import device_findings, start_pose
 
 LIBRARIES = {
     "arm": ("ur-rtde", "1.6"),
@@ -118,18 +116,13 @@ def _file_findings(config: RunConfig) -> list[Finding]:
     axes = PadAxes(x_tcp=config.pad.x_axis, y_tcp=config.pad.y_axis)
     directions = f"x {_listed(axes.x_tcp)}, y {_listed(axes.y_tcp)} in the TCP's frame"
     found = [finding("rig", "limits", True, limits), finding("rig", "pad axes", True, directions)]
-    start = None if config.hardware is None else config.hardware.start
-    if start is None or start.position_m is None or start.rotvec_rad is None:
-        return found
-    return [*found, _start_finding(start.position_m, start.rotvec_rad, config)]
+    start = None if config.hardware is None else start_pose(config.hardware.start)
+    return found if start is None else [*found, _start_finding(start, config)]
 
 
-def _start_finding(
-    position_m: Sequence[float], rotvec_rad: Sequence[float], config: RunConfig
-) -> Finding:
+def _start_finding(pose: Pose, config: RunConfig) -> Finding:
     """Whether a run may go to the start pose of the rig's file."""
-    pose = Pose(position_m=np.array(position_m), rotvec_rad=np.array(rotvec_rad))
-    detail = f"{_listed(position_m)} m"
+    detail = f"{_listed(pose.position_m.tolist())} m"
     try:
         check_workspace(pose, config.limits())
     except LimitError as error:

@@ -126,8 +126,7 @@ def _run(config: RunConfig, contract: Contract, events: EventFile, flags: RunFla
         )
     check_record_directory(config.record)
     console = make_console()
-    stack = ExitStack()
-    try:
+    with ExitStack() as stack:
         with working("loading the policy and connecting the rig"):
             policy, rig = _connect(config, stack)
         start = f"{config.task} with {policy.name}, seed {config.seed}: {config.instruction}"
@@ -141,11 +140,9 @@ def _run(config: RunConfig, contract: Contract, events: EventFile, flags: RunFla
         if flags.view:
             watch.append(_viewer(config, contract, console, stack))
         outcome, path = run_recorded(rig, policy, config, contract, observers=watch)
-    except BaseException:
-        stack.close()
-        raise
+        connected = stack.pop_all()
     with suppress(KeyboardInterrupt), delayed_interrupts():  # the robot's state is always told
-        stack.close()
+        connected.close()
         events.end(outcome)
         console.print(f"episode: {path}")
         for end_line in end_lines(outcome, config, width_of(console)):

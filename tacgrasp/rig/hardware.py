@@ -253,6 +253,13 @@ def _check_forces(config: RunConfig, device_n: float) -> None:
         )
 
 
+def start_pose(start: StartConfig) -> Pose | None:
+    """The configured start pose; None where an episode starts at the arm's present one."""
+    if start.position_m is None or start.rotvec_rad is None:
+        return None
+    return Pose(position_m=np.array(start.position_m), rotvec_rad=np.array(start.rotvec_rad))
+
+
 def _go_to_start(arm: Arm, start: StartConfig, config: RunConfig) -> Pose:
     """Move the arm to a configured start pose, except in a dry run; return the start pose.
 
@@ -260,10 +267,9 @@ def _go_to_start(arm: Arm, start: StartConfig, config: RunConfig) -> Pose:
         LimitError: The pose is outside the workspace; nothing has moved.
         RobotError: The arm is too far away (nothing has moved), or its move failed.
     """
-    current = arm.pose()
-    if start.position_m is None or start.rotvec_rad is None:
+    current, pose = arm.pose(), start_pose(start)
+    if pose is None:
         return current
-    pose = Pose(position_m=np.array(start.position_m), rotvec_rad=np.array(start.rotvec_rad))
     check_workspace(pose, config.limits())
     offset_mm = distance_mm(current, pose)
     if offset_mm > start.max_way_mm:

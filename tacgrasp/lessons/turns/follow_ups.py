@@ -47,7 +47,6 @@ _IN_UNIT = re.compile(
     r"(?:in |as )?(?P<unit>[^\d\s?.!,]+(?: [a-z]+)?)(?: is (?:it|that))?(?:,? please)?[?.! ]*",
     re.I,
 )
-_SUPPOSED = re.compile(r"\b(?:is|are|would|will|does|do) (?P<pronoun>it|that|this)\b", re.I)
 
 
 def asks_by_how_much(question: str) -> bool:
@@ -106,14 +105,6 @@ def in_another_unit(question: str, asked: Meaning) -> Meaning | None:
     if (own, other) == ("mass", "force"):
         return Calculated(truth=f"{truth} * {GRAVITY_N_PER_G}", unit=symbol)
     return None
-
-
-def about_the_force(question: str) -> str:
-    """A question about 'it' as one about the force; '' of others."""
-    found = _SUPPOSED.search(question)
-    if found is None:
-        return ""
-    return f"{question[: found.start('pronoun')]}the force{question[found.end('pronoun') :]}"
 
 
 def of_supposed_force(asked: Meaning, supposed: Meaning) -> Calculated | None:

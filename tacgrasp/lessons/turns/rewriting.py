@@ -59,11 +59,7 @@ _SUPPOSED = (
 _ANOTHER_IF = re.compile(rf"{_LEAD}(?P<if>if [^,]+?)[?.! ]*", re.I)
 _UNDER_IT = re.compile(r"\b(?:it|that|this|then|still|would)\b", re.I)
 _THEN = re.compile(r",? ?\bthen\b", re.I)
-_SUBJECT = re.compile(
-    r"(?<=\bis )(?:it|that|this)\b|(?<=\bwould )(?:it|that|this)\b|(?<=\bdoes )(?:it|that|this)\b|"
-    r"(?<=\bwill )(?:it|that|this)\b",
-    re.I,
-)
+_SUBJECT = re.compile(r"\b(?P<verb>is|are|would|will|does|do) (?:it|that|this)\b", re.I)
 
 _SIDES = ("left", "right", "top", "bottom", "upper", "lower", "fingertip", "palm")
 _SIDE = re.compile(rf"\b(?:{'|'.join(_SIDES)})\b", re.I)
@@ -213,7 +209,12 @@ def _under_supposition(question: str, before: str) -> str:
     if supposed is None or _ANOTHER_IF.match(question) or not _UNDER_IT.search(question):
         return ""
     asked = re.sub(rf"^{_LEAD}", "", _THEN.sub("", question), flags=re.I)
-    return f"{_capital(supposed[0])}, {_uncapital(_SUBJECT.sub('the force', asked))}"
+    return f"{_capital(supposed[0])}, {_uncapital(about_the_force(asked))}"
+
+
+def about_the_force(question: str) -> str:
+    """A question about 'it' as one about the force."""
+    return _SUBJECT.sub(r"\g<verb> the force", question)
 
 
 def _with_force(clause: str) -> str:

@@ -107,10 +107,8 @@ def with_told(scene: AskedScene, told: Told) -> AskedScene:
         scene = replace(scene, mass_g=told.mass_g)
     if told.band_n is None and told.limit_n is None:
         return scene
-    contract = scene.contract
     if told.band_n is not None:
-        low_n, high_n = told.band_n
-        return replace(scene, contract=band_contract(low_n, high_n, told.limit_n))
-    if contract is None:
+        return replace(scene, contract=band_contract(*told.band_n))
+    if scene.contract is None:
         raise ValueError("a limit needs a force band; tell me the band too")
-    return replace(scene, contract=replace(contract, limit_n=told.limit_n))
+    return replace(scene, contract=replace(scene.contract, limit_n=told.limit_n))

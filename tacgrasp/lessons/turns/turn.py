@@ -9,7 +9,6 @@ from tacgrasp.lessons.dialogue.meaning import Description, Meaning, OffTopic, Un
 from tacgrasp.lessons.dialogue.query import query_of
 from tacgrasp.lessons.read_question import ReadQuestion
 from tacgrasp.lessons.turns.follow_ups import (
-    about_the_force,
     asks_by_how_much,
     difference_of,
     in_another_unit,
@@ -18,7 +17,7 @@ from tacgrasp.lessons.turns.follow_ups import (
     reason_of,
     with_quantity_of,
 )
-from tacgrasp.lessons.turns.rewriting import noun_of, rewritten, with_noun
+from tacgrasp.lessons.turns.rewriting import about_the_force, noun_of, rewritten, with_noun
 from tacgrasp.lessons.turns.told import Told, told_in
 from tacgrasp.lessons.understanding import (
     CALCULATED_CONFIDENCE,
@@ -117,7 +116,7 @@ def next_turn(writer: QueryWriter, question: str, before: Turn) -> Turn:
 
 def _telling(text: str, before: Turn) -> Turn | None:
     """A turn that tells something, with or without a question about it; None of others."""
-    if understood_by_grammar(text) is not None or (found := told_in(text)) is None:
+    if (found := told_in(text)) is None or understood_by_grammar(text) is not None:
         return None
     told, asked = found
     read = understood_by_grammar(asked) if asked else None
@@ -138,7 +137,7 @@ def _by_meaning(question: str, before: str, about: Meaning) -> ReadQuestion | No
         meaning = meaning or (reason_of(about) if _WHY.fullmatch(question.strip()) else None)
     if (
         meaning is None
-        and (of_force := about_the_force(question))
+        and (of_force := about_the_force(question)) != question
         and (read := understood_by_grammar(of_force))
     ):
         meaning = of_supposed_force(read.meaning, about)

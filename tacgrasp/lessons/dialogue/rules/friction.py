@@ -76,7 +76,7 @@ def frictional(question: str) -> Calculated | None:
         return Calculated(truth=f"{weight_n} / ({contacts} * force_n)", unit="")
     held_n = f"{contacts} * {float(found['mu']):g} * force_n"
     if choice := _SLIP_OR_HOLD.search(rest):
-        words = {name: name for name in (choice["a"].lower(), choice["b"].lower())}
+        words = choice["a"].lower(), choice["b"].lower()
         stays = next((word for word in words if word != "slip"), "")
         if "slip" in words and stays:
             truth = f"'{stays}' if {held_n} >= {weight_n} else 'slip'"
