@@ -108,7 +108,7 @@ def main(argv: Sequence[str]) -> int:
         if flags.json:
             sys.stdout.write(json.dumps(spoken.json(), ensure_ascii=False) + "\n")
         else:
-            console.print(spoken.answer.text)
+            console.print(spoken.text)
         sys.stdout.flush()
 
     if flags.question is not None:

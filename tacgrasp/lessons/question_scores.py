@@ -183,7 +183,7 @@ def perfect_answer(asked: AskedQuestion) -> str:
 
 def grammar_answer(asked: AskedQuestion) -> str | None:
     """The grammar's own answer from the true state; None where it lacks the wording."""
-    meaning = understand(asked.row.question, before=asked.row.before)
+    meaning = understand(asked.row.question, before=asked.row.last)
     if meaning is None:
         return None
     return answer(meaning, asked.scene).text

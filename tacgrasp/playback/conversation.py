@@ -1,12 +1,13 @@
 """Questions about one contact, one after another: the model feels it once, and reads each question.
 
-Not here: the lines of a terminal (``tacgrasp.cli.ask``).
+Not here: the dialogue itself (``tacgrasp.lessons.turns.dialogue``), the lines of a terminal
+(``tacgrasp.cli.ask``).
 """
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 from cltp.encoder.reader import reading_of
@@ -17,76 +18,47 @@ from cltp.tactile.contact.single_cloud import is_touched
 from cltp.tactile.encoder_input import encoder_input
 from cltp.tactile.states import NO_CONTACT_STATE
 from policies.llm.spoken import SpokenContact, spoken_contact
-from primitives import Primitive
 from primitives.contract import Contract
-from primitives.errors import LimitError
-from tacgrasp.lessons.answering import Answered, answered
 from tacgrasp.lessons.dialogue.answers import Answer
-from tacgrasp.lessons.dialogue.conditions import IN_BAND
-from tacgrasp.lessons.dialogue.facts import ACTIONS, REASONS
-from tacgrasp.lessons.dialogue.meaning import AnswerKind, Check, Meaning, Which, kind_of
-from tacgrasp.lessons.dialogue.scene import HOLD, LIFT, AskedScene
-from tacgrasp.lessons.read_question import ReadQuestion
-from tacgrasp.lessons.turns.certainty import LAST, doubted_by
-from tacgrasp.lessons.turns.follow_ups import asks_by_how_much
-from tacgrasp.lessons.turns.told import with_told
-from tacgrasp.lessons.turns.turn import Turn, next_turn
-from tacgrasp.lessons.understanding import understood_by_grammar
+from tacgrasp.lessons.dialogue.meaning import AnswerKind
+from tacgrasp.lessons.dialogue.scene import AskedScene
+from tacgrasp.lessons.turns.dialogue import Dialogue, Said
+from tacgrasp.lessons.turns.turn import next_turn
 from tacgrasp.playback.describe import RAISED, cloud_flags, zero_flags
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Spoken:
-    """The answer to a question.
+    """The answer to a question about a contact.
 
     Attributes:
-        answer: The answer.
-        confidence: Probability that the question is understood and the answer right.
-        interval: Of a number, what holds it in nine cases of ten, in its unit; None without one.
-        query: What the model took the question for; '' where it came to nothing.
+        said: The answer, with its doubt.
         flags: Why what is felt is not to be trusted, those of ``tacgrasp describe``; empty where it
             may be.
     """
 
-    answer: Answer
-    confidence: float
-    interval: tuple[float, float] | None
-    query: str
-    flags: tuple[str, ...] = ()
+    said: Said
+    flags: tuple[str, ...]
+
+    @property
+    def text(self) -> str:
+        """The answer in words."""
+        return self.said.answer.text
 
     def json(self) -> dict[str, Any]:
         """The answer for programs."""
+        answer = self.said.answer
         return {
-            "answer": self.answer.text,
-            "kind": self.answer.kind.value,
-            "value": self.answer.value,
-            "unit": self.answer.unit or None,
-            "interval": self.interval,
-            "confidence": self.confidence,
-            "decidable": self.answer.decidable,
-            "query": self.query,
+            "answer": answer.text,
+            "kind": answer.kind.value,
+            "value": answer.value,
+            "unit": answer.unit or None,
+            "interval": self.said.interval,
+            "confidence": self.said.confidence,
+            "decidable": answer.decidable,
+            "query": self.said.query,
             "flags": list(self.flags),
         }
-
-
-_HOW_MUCH = {
-    Primitive.INCREASE_FORCE.value: "How far are we below the band?",
-    Primitive.DECREASE_FORCE.value: "By how much is the force above the band?",
-    **dict.fromkeys(
-        (each.value for each in Primitive if each.value.startswith("move_")),
-        "How far is it from the middle of the pad?",
-    ),
-}
-"""What a step of the advice lacks, by its name."""
-
-_WHY = re.compile(
-    r"(?:and |but |so )?(?:why(?: not| is that| can'?t you(?: say| tell)?)?|how come)[?.! ]*", re.I
-)
-_WHY_SO = re.compile(r"(?:and |but |so )?why ((?:is|are|does|do|has|have) [^?]+?)[?.! ]*", re.I)
-_SO = re.compile(r"\b(?:so|that|too) (?=\w+\?$)", re.I)
-_LIFTING = re.compile(
-    r"\b(?:lift\w*|pick\w*|ready|raise|hoist|take it up|go ahead|proceed)\b", re.I
-)
 
 
 class Conversation:
@@ -114,7 +86,6 @@ class Conversation:
         contract: Contract | None = None,
         mass_g: float | None = None,
     ) -> None:
-        self._talker = talker
         spoken = SpokenContact(NO_CONTACT_STATE, {}, {})
         self._flags: tuple[str, ...] = ()
         self._unread = f"I can't say: {raised_text(cloud)}." if is_raised(cloud) else ""
@@ -128,130 +99,16 @@ class Conversation:
             self._flags = (*(flag.value for flag in reading.flags), *cloud_flags(cloud))
         else:
             self._flags = tuple(zero_flags(cloud))
-        self._scene = replace(told, state=spoken.state)
-        self._words, self._ends = spoken.confidence, spoken.ends
-        self._turn = Turn()
-        self._last: Spoken | None = None
+        self._dialogue = Dialogue(
+            partial(next_turn, talker),
+            replace(told, state=spoken.state),
+            spoken.confidence,
+            spoken.ends,
+        )
 
     def ask(self, question: str) -> Spoken:
         """Answer a question."""
         if self._unread:
-            return Spoken(
-                answer=Answer(text=self._unread, kind=AnswerKind.UNKNOWABLE, decidable=False),
-                confidence=1.0,
-                interval=None,
-                query="",
-                flags=self._flags,
-            )
-        if said := self._certainty(question) or self._reason_of_none(question):
-            return said
-        if refuted := refuted_premise(question, self._scene):
-            return self._spoken(refuted)
-        self._turn = next_turn(self._talker, self._in_full(question), self._turn)
-        try:
-            scene = self._scene_of(self._turn)
-        except (ValueError, LimitError) as error:
-            return self._spoken(Answer(text=f"I can't take that: {error}.", kind=AnswerKind.TEXT))
-        told = self._turn.told
-        if told is not None and not told.is_supposed:
-            self._scene = scene
-        if told is not None and self._turn.read is None:
-            return self._spoken(Answer(text=f"Noted: {told.text}.", kind=AnswerKind.TEXT))
-        self._last = self._answered(question, self._turn.read, scene)
-        return self._last
-
-    def _in_full(self, question: str) -> str:
-        """What 'by how much?' asks behind advice; any other question as it is."""
-        about = self._turn.about
-        is_step = isinstance(about, Which) and about.name == "action"
-        if not (is_step and asks_by_how_much(question)):
-            return question
-        return _HOW_MUCH.get(action_of(self._scene), question)
-
-    def _scene_of(self, turn: Turn) -> AskedScene:
-        """The scene with what a question tells."""
-        return self._scene if turn.told is None else with_told(self._scene, turn.told)
-
-    def _answered(self, question: str, asked: ReadQuestion | None, scene: AskedScene) -> Spoken:
-        given = answered(asked, scene, self._words, self._ends)
-        answer = given.answer
-        if asked is not None and advises_first(question, asked.meaning, answer, scene):
-            first = f"{ACTIONS[action_of(scene)]} first: {REASONS[reason_of(scene)]}"
-            answer = replace(answer, text=f"{answer.text.rstrip('.')}, but {first}.")
-        return self._spoken(answer, given, "" if asked is None else asked.query)
-
-    def _certainty(self, question: str) -> Spoken | None:
-        """How sure the answer before is, or that for a quantity; None of other questions."""
-        doubted = doubted_by(question)
-        last = self._last if doubted == LAST else None
-        if doubted and doubted != LAST:
-            last = self._answered(doubted, understood_by_grammar(doubted), self._scene)
-        if last is None or not last.answer.decidable or not last.confidence:
-            return None
-        return replace(last, answer=Answer(text=certainty_text(last), kind=AnswerKind.TEXT))
-
-    def _reason_of_none(self, question: str) -> Spoken | None:
-        """Why the question before had no answer; None of other questions."""
-        last = self._last
-        if last is None or last.answer.decidable or not _WHY.fullmatch(question.strip()):
-            return None
-        missing = last.answer.text.removeprefix("I can't say: ")
-        reasons = {AnswerKind.OFF_TOPIC: "that is not about touch."}
-        reason = reasons.get(last.answer.kind, "the touch of one fingertip does not tell it.")
-        if missing != last.answer.text:
-            reason = missing
-        elif not last.query:
-            return None  # it was not understood
-        return self._spoken(Answer(text=f"Because {reason}", kind=AnswerKind.TEXT))
-
-    def _spoken(self, answer: Answer, given: Answered | None = None, query: str = "") -> Spoken:
-        return Spoken(
-            answer=answer,
-            confidence=1.0 if given is None else given.confidence,
-            interval=None if given is None else given.interval,
-            query=query,
-            flags=self._flags,
-        )
-
-
-def certainty_text(spoken: Spoken) -> str:
-    """How sure an answer is: the ends of a number, or the chances of anything else."""
-    if spoken.interval is not None:
-        unit = f" {spoken.answer.unit}" if spoken.answer.unit else ""
-        low, high = (f"{end:.3g}" for end in spoken.interval)
-        return f"In nine cases of ten it is between {low} and {high}{unit}."
-    percent = f"{100 * spoken.confidence:.0f} %"
-    if spoken.answer.kind is AnswerKind.YES_NO:
-        return f"About {percent} sure that the answer is {'yes' if spoken.answer.value else 'no'}."
-    claim = spoken.answer.text.removeprefix("Probably ")
-    return f"About {percent} sure: {claim[:1].lower()}{claim[1:]}"
-
-
-def refuted_premise(question: str, scene: AskedScene) -> Answer | None:
-    """The answer to a question for the reason of what is not so; None of other questions."""
-    found = _WHY_SO.fullmatch(question.strip())
-    asked = understood_by_grammar(_SO.sub("", f"{found[1]}?")) if found else None
-    if asked is None or kind_of(asked.meaning) is not AnswerKind.YES_NO:
-        return None
-    is_so = answered(asked, scene).answer
-    if not is_so.decidable or is_so.value is not False or not is_so.text.startswith("No, "):
-        return None
-    return Answer(text=f"It is not so: {is_so.text.removeprefix('No, ')}", kind=AnswerKind.TEXT)
-
-
-def advises_first(question: str, meaning: Meaning, given: Answer, scene: AskedScene) -> bool:
-    """Whether a yes to a lift leaves out that something else is advised first."""
-    is_lift = isinstance(meaning, Check) and meaning.condition == IN_BAND
-    if not (is_lift and given.value is True and _LIFTING.search(question)):
-        return False
-    return scene.state.in_contact and action_of(scene) not in (LIFT, HOLD)
-
-
-def action_of(scene: AskedScene) -> str:
-    """What is advised, as a scene names it."""
-    return str(scene.values()["action"])
-
-
-def reason_of(scene: AskedScene) -> str:
-    """Why, as a scene names it."""
-    return str(scene.values()["reason"])
+            unread = Answer(text=self._unread, kind=AnswerKind.UNKNOWABLE, decidable=False)
+            return Spoken(said=Said(answer=unread), flags=self._flags)
+        return Spoken(said=self._dialogue.ask(question), flags=self._flags)

@@ -12,7 +12,7 @@ from __future__ import annotations
 import tempfile
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, replace
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 from typing import Any
 
@@ -48,10 +48,9 @@ from tacgrasp.lessons.question_scores import (
     perfect_answer,
 )
 from tacgrasp.lessons.read_question import ReadQuestion
-from tacgrasp.lessons.understanding import (
-    understood_by_grammar,
-    understood_by_model,
-)
+from tacgrasp.lessons.turns.dialogue import Dialogue, Said, TurnReader
+from tacgrasp.lessons.turns.turn import next_turn
+from tacgrasp.lessons.understanding import understood_by_model
 
 MADE_SEED = BENCHMARK_SEED + 7
 """Seed of the contacts that are made where none are given; no data set can have it."""
@@ -61,6 +60,9 @@ ALONE = "model alone"
 
 AS_FELT = "truth as felt"
 """Name in tables of what understands every question and feels as the model does."""
+
+APART = "each question apart"
+"""Name in tables of the model that does not hear what was asked before."""
 
 TRUE_TOUCH = "true touch"
 """Name in tables of the model that is told the contact as it is."""
@@ -152,14 +154,19 @@ def evaluate_questions(
         if talker is not None:
             confidences: list[float] = []
             spoken = spoken_once(talker, contacts)
-            alone = by_model(talker)
-            meant = by_grammar_or(alone)
-            model = asked_model(meant, spoken, len(asked), report, confidences=confidences)
+            read = cache(partial(next_turn, talker))
+            model = in_dialogue(read, spoken, len(asked), report, confidences=confidences)
             answers = answer_all(asked, model)
-            without = answer_all(asked, asked_model(alone, spoken, len(asked), silent))
-            felt = answer_all(asked, truth_as_felt(spoken))
-            told = answer_all(asked, with_true_touch(meant))
-            scored = {"model": answers, ALONE: without, TRUE_TOUCH: told, AS_FELT: felt, **scored}
+            mine: dict[str, list[ScoredAnswer]] = {"model": answers}
+            if any(row.before for row in rows):
+                apart = [replace(one, row=replace(one.row, before=())) for one in asked]
+                model = in_dialogue(read, spoken, len(asked), silent)
+                mine[APART] = answer_all(apart, model)
+            model = asked_model(by_model(talker), spoken, len(asked), silent)
+            mine[ALONE] = answer_all(asked, model)
+            mine[TRUE_TOUCH] = answer_all(asked, with_true_touch(read))
+            mine[AS_FELT] = answer_all(asked, truth_as_felt(spoken))
+            scored = {**mine, **scored}
             trust = {"confidence": confidence_figures(answers, confidences)}
     except ValueError as error:
         raise UsageError(f"the file of questions: {error}") from None
@@ -199,17 +206,59 @@ def truth_as_felt(spoken: Spoken) -> Callable[[AskedQuestion], str]:
     return reply
 
 
-def with_true_touch(meant: Understanding) -> Callable[[AskedQuestion], str]:
+def with_true_touch(read: TurnReader) -> Callable[[AskedQuestion], str]:
     """What answers questions, as it understands them, about the contact as it is.
 
     It is an upper bound for a touch that is read so: what it misses, language misses.
+
+    Args:
+        read: What reads a question behind others.
     """
 
     def reply(asked: AskedQuestion) -> str:
-        row = asked.row
-        return answered(meant(row.question, row.before), asked.scene).answer.text
+        return _said(Dialogue(read, asked.scene), asked.row).answer.text
 
     return reply
+
+
+def in_dialogue(
+    read: TurnReader,
+    spoken: Spoken,
+    total: int,
+    report: ProgressReport,
+    *,
+    confidences: list[float] | None = None,
+) -> Callable[[AskedQuestion], str]:
+    """What answers as ``tacgrasp ask`` does: behind the questions before, from what it feels.
+
+    Args:
+        read: What reads a question behind others.
+        spoken: What the model feels and says of a contact.
+        total: Number of questions to come, for the progress.
+        report: Receives the progress.
+        confidences: Receives the confidence of each answer.
+    """
+    done = 0
+
+    def reply(asked: AskedQuestion) -> str:
+        nonlocal done
+        felt = spoken(asked.contact)
+        scene = replace(asked.scene, state=felt.state)
+        said = _said(Dialogue(read, scene, felt.confidence, felt.ends), asked.row)
+        done += 1
+        if confidences is not None:
+            confidences.append(said.confidence)
+        report("questions", done, total, {})
+        return said.answer.text
+
+    return reply
+
+
+def _said(dialogue: Dialogue, row: QuestionRow) -> Said:
+    """The answer to a question behind those before it."""
+    for question in row.before:
+        dialogue.ask(question)
+    return dialogue.ask(row.question)
 
 
 def own_questions(scenes: Sequence[AskedScene], num: int, seed: int) -> list[AskedQuestion]:
@@ -233,16 +282,6 @@ def by_model(talker: Talker) -> Understanding:
     return meant
 
 
-def by_grammar_or(other: Understanding) -> Understanding:
-    """What each question means by the grammar, or else to another; each is read once."""
-
-    @cache
-    def meant(question: str, before: str) -> ReadQuestion | None:
-        return understood_by_grammar(question, before) or other(question, before)
-
-    return meant
-
-
 def asked_model(
     meant: Understanding,
     spoken: Spoken,
@@ -250,9 +289,8 @@ def asked_model(
     report: ProgressReport,
     *,
     stage: str = "questions",
-    confidences: list[float] | None = None,
 ) -> Callable[[AskedQuestion], str]:
-    """What answers questions from what a model feels.
+    """What answers questions from what a model feels, each behind the one before it at most.
 
     Args:
         meant: What a question means.
@@ -260,7 +298,6 @@ def asked_model(
         total: Number of questions to come, for the progress.
         report: Receives the progress.
         stage: Name of the stage, for the progress.
-        confidences: Receives the confidence of each answer.
     """
     done = 0
 
@@ -268,10 +305,8 @@ def asked_model(
         nonlocal done
         felt, row = spoken(asked.contact), asked.row
         scene = replace(asked.scene, state=felt.state)
-        given = answered(meant(row.question, row.before), scene, felt.confidence, felt.ends)
+        given = answered(meant(row.question, row.last), scene, felt.confidence, felt.ends)
         done += 1
-        if confidences is not None:
-            confidences.append(given.confidence)
         report(stage, done, total, {})
         return given.answer.text
 

@@ -3,8 +3,8 @@
 A follow-up is written anew so that it stands alone, and is then read as any other question. What
 the next one follows is that text, so that several in a row lose nothing.
 
-Not here: what a question alone means (``tacgrasp.lessons.understanding``), the scene and the
-answers (``tacgrasp.playback.conversation``).
+Not here: what a question alone means (``tacgrasp.lessons.understanding``), what is felt
+(``tacgrasp.playback.conversation``).
 
-May import: tacgrasp.lessons, tacgrasp.lessons.dialogue.
+May import: primitives, tacgrasp.lessons, tacgrasp.lessons.dialogue.
 """

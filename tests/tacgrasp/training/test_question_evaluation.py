@@ -13,6 +13,7 @@ from tacgrasp.base.errors import UsageError
 from tacgrasp.cli.eval_questions import _show
 from tacgrasp.lessons import understanding
 from tacgrasp.lessons.dialogue.scoring.question_file import question_row
+from tacgrasp.lessons.turns import turn
 from tacgrasp.training import question_evaluation
 from tacgrasp.training.question_evaluation import FeltContact, evaluate_questions, felt_contacts
 from tests.fakes.query_odds import NoOdds
@@ -88,8 +89,19 @@ def test_wordings_of_the_grammar_are_read_by_it_and_the_model_without_it_stands_
     assert results["figures"]["model"]["undecidable"] == 1
 
 
+def test_a_question_is_asked_behind_all_those_before_it(monkeypatch):
+    before = "What if I add 0.9 N? | Is that over the limit?"
+    rows = [row("And with 0.1 N?", "yes_no", "force_n + 0.1 > limit_n", before=before)]
+    parrot = Parrot("amount force N.")
+    results, answers = evaluate_questions(rows, CONTACTS[:1], parrot, per_question=1)
+    assert answers[0].text == "No, the force would be 0.93 N, the limit is 1.30 N."
+    assert results["figures"]["model"]["right"] == results["figures"]["true touch"]["right"] == 1
+    assert results["figures"]["each question apart"]["right"] == 0
+
+
 def test_confidence_is_scored_on_what_the_model_answers(monkeypatch):
-    monkeypatch.setattr(question_evaluation, "understood_by_grammar", lambda *_: None)
+    monkeypatch.setattr(turn, "understood_by_grammar", lambda *_: None)
+    monkeypatch.setattr(understanding, "understood_by_grammar", lambda *_: None)
     results, answers = evaluated(Parrot("amount force N."))
     assert {each.text for each in answers} == {"0.83 N."}
     assert results["figures"]["model"] == results["figures"]["model alone"]

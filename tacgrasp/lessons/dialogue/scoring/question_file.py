@@ -9,7 +9,7 @@ another, before:
     tolerance   of a number: in its unit (0.3) or of the value (15%); of a yes or no: how near to
                 the threshold a contact is left out. Empty: the usual one of a number
                 (``tacgrasp.lessons.dialogue.scoring.tolerances``), 0 of yes and no
-    before      the question that was answered before this one
+    before      the questions that were answered before this one, with `` | `` between them
 """
 
 from __future__ import annotations
@@ -28,6 +28,9 @@ from tacgrasp.lessons.dialogue.scoring.tolerances import Tolerance, tolerance_of
 KEPT_OUT = "kept_out_questions.csv"
 """Questions in ``tacgrasp.lessons`` that were written before the grammar and are not in it."""
 
+BETWEEN = " | "
+"""What stands between two questions of the column before."""
+
 COLUMNS = ("family", "question", "kind", "truth", "tolerance")
 UNDECIDABLE = (AnswerKind.UNKNOWABLE, AnswerKind.OFF_TOPIC)
 
@@ -42,7 +45,7 @@ class QuestionRow:
         kind: Kind of the right answer.
         truths: Its truth, or several; empty where touch knows none.
         tolerance: Of a number or a threshold.
-        before: The question before it; ''.
+        before: The questions before it.
     """
 
     family: str
@@ -50,7 +53,12 @@ class QuestionRow:
     kind: AnswerKind
     truths: tuple[Expression, ...] = ()
     tolerance: Tolerance | None = None
-    before: str = ""
+    before: tuple[str, ...] = ()
+
+    @property
+    def last(self) -> str:
+        """The question right before it; ''."""
+        return self.before[-1] if self.before else ""
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -107,7 +115,9 @@ def question_row(row: Mapping[str, str]) -> QuestionRow:
         kind=kind,
         truths=truths,
         tolerance=_tolerance(row["tolerance"].strip()),
-        before=row.get("before", "").strip(),
+        before=tuple(
+            line.strip() for line in row.get("before", "").split(BETWEEN.strip()) if line.strip()
+        ),
     )
 
 

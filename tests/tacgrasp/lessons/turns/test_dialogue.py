@@ -1,15 +1,15 @@
-"""A dialogue about one contact: facts that are told, doubts, premises, and what comes first."""
+"""A dialogue about one scene: facts that are told, doubts, premises, and what comes first."""
 
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 
 import pytest
 
-from tacgrasp.lessons.dialogue.scene import band_contract
-from tacgrasp.playback import conversation
-from tacgrasp.playback.conversation import Conversation
-from tests.fakes.loop_fakes import touch
+from tacgrasp.lessons.dialogue.scene import AskedScene, band_contract
+from tacgrasp.lessons.turns.dialogue import Dialogue
+from tacgrasp.lessons.turns.turn import next_turn
 from tests.fakes.question_scenes import HELD
 
 
@@ -23,17 +23,13 @@ class Refusing:
 
 
 @pytest.fixture
-def talk(monkeypatch):
+def talk():
     """Begins a dialogue about a state that is felt."""
 
     def begin(state=HELD.state, *, mass_g=None, shape=0.7):
-        monkeypatch.setattr(conversation, "is_touched", lambda cloud: False)
-        monkeypatch.setattr(conversation, "zero_flags", lambda cloud: ())
-        contract = band_contract(0.6, 1.0, 1.3)
-        talk = Conversation(touch(), Refusing(), contract=contract, mass_g=mass_g)
-        talk._scene = replace(talk._scene, state=state)
-        talk._words = {"shape": shape}
-        talk._ends = {"depth_mm": (0.15, 0.25), "force_n": (0.5, 1.4)}
+        scene = AskedScene(state=state, contract=band_contract(0.6, 1.0, 1.3), mass_g=mass_g)
+        ends = {"depth_mm": (0.15, 0.25), "force_n": (0.5, 1.4)}
+        talk = Dialogue(partial(next_turn, Refusing()), scene, {"shape": shape}, ends)
         return lambda *lines: [talk.ask(line).answer.text for line in lines][-1]
 
     return begin
