@@ -54,6 +54,7 @@ from tacgrasp.lessons.dialogue.query import (
     query_of,
     read_query,
 )
+from tacgrasp.lessons.dialogue.rules.advised import advised
 from tacgrasp.lessons.dialogue.rules.friction import frictional
 from tacgrasp.lessons.dialogue.rules.ruled import ruled_whole
 from tacgrasp.lessons.dialogue.rules.unread import is_beyond
@@ -195,6 +196,7 @@ def _composed(question: str) -> Meaning | None:
     """What a question means by the first reader that accounts for all of it."""
     return (
         frictional(question)
+        or advised(question)
         or replied(question)
         or (calculated(question) if begins_supposed(question) else None)
         or chosen(question)

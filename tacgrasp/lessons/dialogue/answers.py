@@ -197,6 +197,8 @@ def _calculated(asked: Calculated, scene: AskedScene) -> Answer:
         shown = ["force_band"]
     compared = _compared(asked.truth, scene)
     clauses = [compared] if compared else [fact(each, scene)[1] for each in dict.fromkeys(shown)]
+    if names_of(asked) == ("action",):
+        clauses = [f"the advice is to {ACTIONS[str(scene.values()['action'])]}"]
     if supposed := _SUPPOSED_N.fullmatch(asked.truth):
         clauses = _supposed_clauses(supposed["force"] or supposed["within"], clauses, scene)
     if kind is AnswerKind.CHOICE:

@@ -4,7 +4,7 @@ An expression has names of ``tacgrasp.lessons.dialogue.scene``, numbers, words i
 where they are words of a class: ``shape == sphere``), ``+ - * / **``, comparisons, ``in`` a list,
 ``and or not``, ``a if c else b`` and the functions ``abs``, ``hypot``, ``min``, ``max`` and
 ``sqrt``. Nothing else is read. Words of depth and area have an order, so ``depth >= 'deep'`` is a
-comparison.
+comparison. What is true counts as 1 in a sum (``cut_left + cut_right``).
 """
 
 from __future__ import annotations
@@ -275,7 +275,7 @@ def _evaluate(node: ast.AST, values: Mapping[str, Value], margins: list[float]) 
             return -inner if isinstance(op, ast.USub) else +inner
         case ast.BinOp(left=left, op=op, right=right):
             pair = (_evaluate(left, values, margins), _evaluate(right, values, margins))
-            if any(isinstance(one, (str, bool)) for one in pair):
+            if any(isinstance(one, str) for one in pair):
                 raise TypeError("words have no sum or product")
             return _ARITHMETIC[type(op)](*pair)
         case ast.BoolOp(op=op, values=parts):

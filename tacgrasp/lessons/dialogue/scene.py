@@ -49,19 +49,23 @@ class AskedScene:
         state: The contact.
         contract: The contract of the episode; None where none was made, or it is refused.
         mass_g: Mass of the object where somebody told it [g].
+        told_limit_n: Limit that somebody told, which counts before the contract's [N].
         sensor: Sensor of the contact.
     """
 
     state: ContactState = NO_CONTACT_STATE
     contract: Contract | None = None
     mass_g: float | None = None
+    told_limit_n: float | None = None
     sensor: SensorSpec = field(default_factory=lambda: SENSORS["gelsight_mini"])
 
     def __post_init__(self) -> None:
         if self.contract is not None and self.contract.refused:
             raise ValueError(f"a refused contract answers nothing: {self.contract.refused}")
         if self.mass_g is not None and not 0 < self.mass_g < math.inf:
-            raise ValueError(f"a mass must be above 0 g and finite, got {self.mass_g}")
+            raise ValueError(f"a mass must be above 0 g and finite, got {self.mass_g:g} g")
+        if self.told_limit_n is not None and not 0 < self.told_limit_n < math.inf:
+            raise ValueError(f"a limit must be above 0 N and finite, got {self.told_limit_n:g} N")
 
     @property
     def advice(self) -> Advice | None:
@@ -114,7 +118,8 @@ class AskedScene:
         names = ("band_low_n", "band_high_n", "limit_n", "force_band", "action", "reason")
         advice = self.advice
         if self.contract is None or advice is None:
-            return {**dict.fromkeys(names), "mass_g": self.mass_g}
+            known = {"limit_n": self.told_limit_n, "mass_g": self.mass_g}
+            return {**dict.fromkeys(names), **known}
         terms, force_n = self.contract.terms, self.state.force_n
         band = terms.force_n
         side = (

@@ -101,10 +101,12 @@ class Dialogue:
         except (ValueError, LimitError) as error:
             return Said(answer=Answer(text=f"I can't take that: {error}.", kind=AnswerKind.TEXT))
         told = self._turn.told
+        has_lost_band = self._scene.contract is not None and scene.contract is None
         if told is not None and not told.is_supposed:
             self._scene = scene
         if told is not None and self._turn.read is None:
-            return Said(answer=Answer(text=f"Noted: {told.text}.", kind=AnswerKind.TEXT))
+            end = ", and the band above it no longer counts" if has_lost_band else ""
+            return Said(answer=Answer(text=f"Noted: {told.text}{end}.", kind=AnswerKind.TEXT))
         self._last = self._answered(question, self._turn.read, scene)
         return self._last
 

@@ -27,12 +27,19 @@ from tacgrasp.lessons.dialogue.meaning import (
     truth_of,
 )
 from tacgrasp.lessons.dialogue.quantities import GRAVITY_N_PER_G, QUANTITIES, UNITS, unit_of_name
+from tacgrasp.lessons.dialogue.rules.advised import is_step_advised
+from tacgrasp.lessons.turns.leads import without_lead
 from tacgrasp.lessons.turns.rewriting import unit_symbol
 
 _BY_HOW_MUCH = re.compile(
-    r"(?:and |but |so )?(?:by (?:how much|what|which margin|what margin|what amount)|how much"
-    r"(?: (?:over|under|above|below|more|less|too (?:much|little|high|low)))?)"
-    r"(?: (?:is (?:it|that)|exactly|then|precisely|roughly|about))*[?.! ]*",
+    r"(?:by (?:how much|what|which margin|what margin|what amount)|how (?:much|many \w+)"
+    r"(?: (?:over|under|above|below|more|less|too (?:much|little|high|low)))?"
+    r"(?: (?:is|are)(?: there)? (?:still )?(?:missing|lacking|left|short|to spare|in hand))?|"
+    r"how (?:much|far|many \w+) (?:off|away|short|over|apart)?(?: (?:are|is) (?:we|it|that|they|"
+    r"the two))?(?: (?:off|away|short|over|apart))?|"
+    r"how (?:much|far|large|big) is the (?:difference|gap|margin))"
+    r"(?: (?:is (?:it|that)|exactly|precisely|roughly|about))*"
+    r"(?P<floor>[ ,(–-]+(?:zero|0|nothing) (?:if|when|for) .+)?[?.! )]*",
     re.I,
 )
 _COMPARED = re.compile(r"(?:not \()?(?P<a>[^<>='\"]+?) [<>]=? (?P<b>[^<>='\"]+?)\)?")
@@ -43,19 +50,33 @@ _CALLED_SO = ("depth", "force", "area", "mass", "limit")
 _PRONOUN = re.compile(r"\b(?:it|that|this)\b", re.I)
 _BARE_NUMBER = re.compile(r"(?<=\s)(?P<number>\d+(?:\.\d+)?)(?=[?.! ]*$)")
 _IN_UNIT = re.compile(
-    r"(?:(?:and|so|ok|okay|but)[, ]+)*(?:(?:how (?:much|many)|what)(?: is (?:it|that|this))?[, ]+)?"
-    r"(?:in |as )?(?P<unit>[^\d\s?.!,]+(?: [a-z]+)?)(?: is (?:it|that))?(?:,? please)?[?.! ]*",
+    r"(?:(?:how (?:much|many)|what(?: (?:weight|force|mass|length))?)"
+    r"(?:(?: is|['’]s| would)(?: (?:it|that|this))?(?: be)?)?[, ]+)?"
+    r"(?:(?:i (?:wanted|want|meant|mean|need)|give me|make (?:it|that)|say it) )?"
+    r"(?:in |as )?(?:plain )?(?P<unit>[^\d\s?.!,]+(?: [a-z]+)?)(?: of (?:weight|force))?"
+    r"(?: (?:is|would) (?:it|that|this)(?: be)?)?(?:, not \w+)?[?.! ]*",
     re.I,
 )
 
 
+LONGEST_STEP = 12
+"""Longest follow-up that asks for a step [words]. Our choice."""
+
+_OPENS = re.compile(r"(?:what|which|how|where|why|when|who)\b", re.I)
+
+
 def asks_by_how_much(question: str) -> bool:
     """Whether a follow-up asks for the difference behind a yes or a no."""
-    return _BY_HOW_MUCH.fullmatch(question.strip()) is not None
+    return _BY_HOW_MUCH.fullmatch(without_lead(question)) is not None
 
 
-def difference_of(asked: Meaning) -> Calculated | None:
-    """How far apart the two sides of a comparison are; None of what compares no two numbers."""
+def difference_of(asked: Meaning, question: str) -> Calculated | None:
+    """How far apart the two sides of a comparison are; None of what compares no two numbers.
+
+    Args:
+        asked: The comparison.
+        question: The follow-up, which may want zero in place of what is not missing.
+    """
     if not isinstance(asked, Check | Calculated):
         return None
     condition = asked.condition if isinstance(asked, Check) else asked.truth
@@ -63,7 +84,10 @@ def difference_of(asked: Meaning) -> Calculated | None:
         return Calculated(truth=OUTSIDE_BAND, unit="N")
     if (found := _COMPARED.fullmatch(condition)) is None:
         return None
+    by_how_much = _BY_HOW_MUCH.fullmatch(without_lead(question))
     truth = f"abs({found['a']} - ({found['b']}))"
+    if by_how_much and by_how_much["floor"]:
+        truth = f"max(0, {found['b']} - ({found['a']}))"
     try:
         names = Expression(truth).names
     except ValueError:  # it has several comparisons
@@ -90,7 +114,7 @@ def in_another_unit(question: str, asked: Meaning) -> Meaning | None:
 
     A force becomes the mass that weighs as much, and the reverse.
     """
-    found = _IN_UNIT.fullmatch(question.strip())
+    found = _IN_UNIT.fullmatch(without_lead(question))
     symbol = unit_symbol(found["unit"]) if found else ""
     if not symbol or not isinstance(asked, Amount | Calculated) or not asked.unit:
         return None
@@ -105,6 +129,19 @@ def in_another_unit(question: str, asked: Meaning) -> Meaning | None:
     if (own, other) == ("mass", "force"):
         return Calculated(truth=f"{truth} * {GRAVITY_N_PER_G}", unit=symbol)
     return None
+
+
+def of_advice(question: str, asked: Meaning) -> Calculated | None:
+    """Whether a step that a follow-up names is the one advised before; None of others."""
+    is_advice = isinstance(asked, Which) and asked.name == "action"
+    is_step = isinstance(asked, Calculated) and Expression(asked.truth).names == ("action",)
+    if not (is_advice or is_step) or len(question.split()) > LONGEST_STEP:
+        return None
+    return (
+        is_step_advised(without_lead(question))
+        if not _OPENS.match(without_lead(question))
+        else None
+    )
 
 
 def of_supposed_force(asked: Meaning, supposed: Meaning) -> Calculated | None:

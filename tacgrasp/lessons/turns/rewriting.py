@@ -15,8 +15,20 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from tacgrasp.lessons.dialogue.meaning import Amount, Check, Meaning, Several, Which
+from cltp.tactile.states import CLASSES
+from policies.instructions.quantities.numerals import in_digits
+from tacgrasp.lessons.dialogue.meaning import (
+    Amount,
+    Calculated,
+    Check,
+    Meaning,
+    Several,
+    Which,
+    names_of,
+    truth_of,
+)
 from tacgrasp.lessons.dialogue.quantities import UNITS
+from tacgrasp.lessons.turns.leads import without_lead
 
 _LEAD = (
     r"(?:(?:and|but|or|so|ok|okay|well|then|now|no|sorry|what about|how about|i meant?|"
@@ -42,7 +54,8 @@ _NUMBER = rf"(?P<number>\d+(?:[.,]\d+)?)(?:\s*(?P<unit>{'|'.join(_UNIT_WORDS.val
 _STATED = re.compile(rf"(?<![\w.,]){_NUMBER}(?!\w|\.\d)", re.I)
 _ANOTHER_NUMBER = re.compile(
     rf"{_LEAD}(?:if (?:i|we|you) )?(?:(?:add|added|by|with|for|at|to|of|over|above|below|under|"
-    rf"(?:more|less) than|it's|it is|it were|it weighs|only|a|an|about)\s+)*{_NUMBER}{_END}",
+    rf"(?:(?:more|less|deeper|higher|lower) )?than|it's|it is|it were|it weighs|only|a|an|about|"
+    rf"one|full|whole|even)\s+)*{_NUMBER}(?: (?:added|on top|off))?{_END}",
     re.I,
 )
 
@@ -63,11 +76,61 @@ _SUBJECT = re.compile(r"\b(?P<verb>is|are|would|will|does|do) (?:it|that|this)\b
 
 _SIDES = ("left", "right", "top", "bottom", "upper", "lower", "fingertip", "palm")
 _SIDE = re.compile(rf"\b(?:{'|'.join(_SIDES)})\b", re.I)
+_OPPOSITE = {
+    "left": "right", "right": "left", "top": "bottom", "bottom": "top", "upper": "lower",
+    "lower": "upper", "fingertip": "palm", "palm": "fingertip",
+}  # fmt: skip
+_EDGE = r"(?: one| edge| side| rim| border| end)"
 _ANOTHER_SIDE = re.compile(
-    rf"{_LEAD}(?:on |at |to |from )?(?:the )?(?P<side>{'|'.join(_SIDES)})"
-    rf"(?: one| edge| side| rim| border)?{_END}",
+    rf"{_LEAD}(?:(?:the )?same(?: \w+)? (?:for|at|to|from) )?(?:(?:up|down) )?"
+    rf"(?:on |at |to |from |towards? )?(?:the )?(?P<side>{'|'.join(_SIDES)}){_EDGE}?"
+    rf"(?: too| as well)?{_END}",
     re.I,
 )
+_OTHER_SIDE = re.compile(
+    rf"{_LEAD}(?:on |at |to |from )?(?:the )?(?:other|opposite)(?:{_EDGE})?{_END}",
+    re.I,
+)
+_HOW_MANY_SIDES = re.compile(
+    rf"{_LEAD}(?:over |on |at |across )?how many (?:sides|edges|rims|borders)(?: is (?:it|that))?"
+    rf"(?:[, ]+(?:altogether|in all|in total|overall))?{_END}",
+    re.I,
+)
+
+_ALONG = {
+    "horizontally": "vertically", "sideways": "vertically", "left-right": "up-down",
+    "horizontal": "vertical", "x": "y", "width": "height", "wide": "high",
+}  # fmt: skip
+_ACROSS = {**_ALONG, **{other: word for word, other in _ALONG.items()}, "vertically": "sideways"}
+_ANOTHER_AXIS = re.compile(
+    rf"{_LEAD}(?:how (?=wide|high))?(?:in |the |its |along )*(?P<axis>{'|'.join(_ACROSS)})"
+    rf"(?: direction| too| as well)?(?::.*)?{_END}",
+    re.I,
+)
+
+_BAND_WORDS = {
+    r"(?:where does it |where's the |the |its |it )*(?:end|ends|stop|stops|upper(?: end)?|top)":
+        "What is the upper end of the band?",
+    r"(?:where does it |where's the |the |its |it )*(?:start|starts|begin|begins|lower(?: end)?|"
+    r"bottom)": "What is the lower end of the band?",
+    r"(?:how (?:wide|broad) is it|(?:the |its )?(?:width|breadth|span))":
+        "What is the width of the band?",
+    r"(?:(?:where|what) is )?(?:the |its )?(?:middle|midpoint|cent(?:er|re)|mean)(?: of it)?":
+        "What is the middle of the band?",
+}  # fmt: skip
+_BAND_WORD = {
+    re.compile(rf"{_LEAD}(?:{words}){_END}", re.I): text for words, text in _BAND_WORDS.items()
+}
+"""Follow-ups about the band, once one of its ends was asked for."""
+
+_NAMED = re.compile(
+    rf"{_LEAD}(?:(?:the )?same (?:for|with) |add |tell me |give me |as for |how is |what is )*"
+    rf"(?:the |its |your )*(?P<name>shape|form|texture|surface|depth|force|position|place|"
+    rf"area|size|mass|limit|band)(?: of it)?(?: too| as well| at least)?{_END}",
+    re.I,
+)
+_CALLS = {"form": "shape", "surface": "texture", "place": "position", "size": "contact area",
+          "area": "contact area"}  # fmt: skip
 
 _WHICH_EDGE = re.compile(
     r"(?:and |but )?(?:(?:on |at )?(?:which|what) (?:edge|side|rim|border)s?(?: is it(?: on)?)?|"
@@ -113,6 +176,9 @@ _CALLED = {
 }
 """Quantities that a pronoun may stand for behind a preposition, as questions call them."""
 
+_COMPARED_WITH = {"limit_n": "the limit", "mass_g": "the mass"}
+"""The same of what a comparison was made with."""
+
 
 def rewritten(question: str, before: str, meant: Meaning | None, noun: str) -> Iterator[str]:
     """What a follow-up may be in full.
@@ -126,10 +192,15 @@ def rewritten(question: str, before: str, meant: Meaning | None, noun: str) -> I
     question = question.strip()
     for text in (
         *_about_place(question, before, meant),
+        *_about_the_band(question, meant),
         _with_another_number(question, before),
         *_with_another_supposition(question, before),
         _under_supposition(question, before),
         _with_another_side(question, before),
+        _with_another_axis(question, before),
+        _of_named_class(question, meant),
+        _of_a_mass(question, before, meant),
+        _named_alone(question),
         with_noun(question, noun),
         _completed(question, before),
     ):
@@ -142,8 +213,16 @@ def _about_place(question: str, before: str, meant: Meaning | None) -> Iterator[
     if isinstance(meant, Check) and "cut" in meant.condition and _WHICH_EDGE.fullmatch(question):
         yield "Which edge cuts it?"
     side = _ANOTHER_SIDE.fullmatch(question)
-    if side and isinstance(meant, Which) and meant.name == "cut_sides":
-        yield f"Is it cut on the {side['side']} side?"
+    is_cut = isinstance(meant, Check) and "cut" in meant.condition
+    is_cut = is_cut or (isinstance(meant, Which) and meant.name == "cut_sides")
+    if side and is_cut:
+        yield f"Is it cut on the {_PAD_SIDES.get(side['side'].lower(), side['side'])} side?"
+    if is_cut and isinstance(meant, Check) and _OTHER_SIDE.fullmatch(question):
+        told = next((side for side in _OPPOSITE if meant.condition.endswith(f"cut_{side}")), "")
+        if told:
+            yield f"Is it cut on the {_OPPOSITE[told]} side?"
+    if is_cut and _HOW_MANY_SIDES.fullmatch(question):
+        yield "How many sides of the pad cut it?"
     if found := _BY_HOW_MUCH_TO.fullmatch(question):
         yield f"How far is the force from {found['rest']}?"
     is_way = isinstance(meant, Which) and meant.name in ("action", "position")
@@ -151,9 +230,62 @@ def _about_place(question: str, before: str, meant: Meaning | None) -> Iterator[
         yield "How far is it from the middle of the pad?"
 
 
+_PAD_SIDES = {"palm": "top", "upper": "top", "fingertip": "bottom", "lower": "bottom"}
+"""Sides of the pad by other names."""
+
+
+def _about_the_band(question: str, meant: Meaning | None) -> Iterator[str]:
+    """A short question about the band that was asked for before."""
+    parts = meant.parts if isinstance(meant, Several) else (meant,)
+    if all(isinstance(each, Amount) and each.quantity.startswith("band_") for each in parts):
+        yield from (text for words, text in _BAND_WORD.items() if words.fullmatch(question))
+
+
+def _with_another_axis(question: str, before: str) -> str:
+    """The question before, along the other axis of the pad."""
+    asked = _ANOTHER_AXIS.fullmatch(question)
+    if asked is None:
+        return ""
+    across = _ACROSS[asked["axis"].lower()]
+    same = [word for word, other in _ACROSS.items() if other == asked["axis"].lower()]
+    for word in dict.fromkeys((across, *same)):
+        text, count = re.subn(rf"\b{word}\b", asked["axis"].lower(), before, count=1, flags=re.I)
+        if count:
+            return text
+    return ""
+
+
+def _of_named_class(question: str, meant: Meaning | None) -> str:
+    """A follow-up that names a class of the depth or the area that was asked about."""
+    shown = meant.shows if isinstance(meant, Check) else ()
+    dimension = {"depth_word": "depth", "area_word": "area"}.get(shown[0] if shown else "", "")
+    words = without_lead(question).rstrip("?.! ")
+    words = re.sub(r"^(?:how|what) about (?:an? )?", "", words, flags=re.I)
+    is_named = any(re.search(rf"\b{word}\b", words, re.I) for word in CLASSES.get(dimension, ()))
+    return f"Is the {dimension} {_uncapital(words)}?" if is_named else ""
+
+
+def _of_a_mass(question: str, before: str, meant: Meaning | None) -> str:
+    """The question before, of another mass than the one that was told."""
+    asked = _ANOTHER_NUMBER.fullmatch(in_digits(question))
+    if asked is None or dimension_of(asked["unit"]) != "mass" or meant is None:
+        return ""
+    truth = truth_of(meant)
+    is_of_mass = "mass_g" in truth and not _STATED.search(before)
+    return f"{before.rstrip('?.! ')} for {asked['number']} {asked['unit']}?" if is_of_mass else ""
+
+
+def _named_alone(question: str) -> str:
+    """A follow-up that is but the name of something felt or agreed."""
+    if (asked := _NAMED.fullmatch(question)) is None:
+        return ""
+    name = asked["name"].lower()
+    return f"What is the {_CALLS.get(name, name)}?"
+
+
 def _with_another_number(question: str, before: str) -> str:
     """The question before with the number of a follow-up, in its unit where that has none."""
-    asked = _ANOTHER_NUMBER.fullmatch(question)
+    asked = _ANOTHER_NUMBER.fullmatch(in_digits(question))
     if asked is None:
         return ""
     dimension = dimension_of(asked["unit"])
@@ -223,11 +355,12 @@ def _with_force(clause: str) -> str:
 
 def _with_another_side(question: str, before: str) -> str:
     """The question before, about another side."""
-    asked = _ANOTHER_SIDE.fullmatch(question)
+    asked, other = _ANOTHER_SIDE.fullmatch(question), _OTHER_SIDE.fullmatch(question)
     places = list(_SIDE.finditer(before))
-    if asked is None or len(places) != 1:
+    if (asked is None and other is None) or len(places) != 1:
         return ""
-    return f"{before[: places[0].start()]}{asked['side'].lower()}{before[places[0].end() :]}"
+    side = asked["side"].lower() if asked else _OPPOSITE[places[0][0].lower()]
+    return f"{before[: places[0].start()]}{side}{before[places[0].end() :]}"
 
 
 def noun_of(meant: Meaning) -> str:
@@ -235,7 +368,12 @@ def noun_of(meant: Meaning) -> str:
     if isinstance(meant, Several) and all(isinstance(part, Amount) for part in meant.parts):
         names = {part.quantity for part in meant.parts if isinstance(part, Amount)}
         return "the band" if names == {"band_low", "band_high"} else ""
-    return _CALLED.get(meant.quantity, "") if isinstance(meant, Amount) else ""
+    if isinstance(meant, Amount):
+        return _CALLED.get(meant.quantity, "")
+    if not isinstance(meant, Check | Calculated):
+        return ""
+    names = {name for name in names_of(meant) if name in _COMPARED_WITH}
+    return _COMPARED_WITH[names.pop()] if len(names) == 1 else ""
 
 
 def with_noun(question: str, noun: str) -> str:

@@ -12,6 +12,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass, replace
 
+from tacgrasp.lessons.dialogue.meaning import Amount, Meaning, Several, names_of
 from tacgrasp.lessons.dialogue.quantities import UNITS
 from tacgrasp.lessons.dialogue.scene import AskedScene, band_contract
 from tacgrasp.lessons.turns.rewriting import dimension_of, unit_symbol
@@ -20,7 +21,8 @@ _N = r"(?P<{}>\d+(?:[.,]\d+)?)"
 _UNIT = r"(?P<{}>[a-zA-Zµ]+)"
 _IF = (
     r"(?P<if>(?:(?:if|suppose|supposing|assuming|assume|say|given(?: that)?|let us say|and|what)"
-    r"[,:]? )*)(?:(?:note|ok|no)[,:]? )*"
+    r"[,:]? )*)(?:(?:note|ok|no|sorry|i mean|i meant|actually|correction|so|now|by the way)"
+    r"[,:]? )*"
 )
 _THING = (
     r"(?:it|this|that|the (?:object|berry|strawberry|fruit|egg|tomato|part|thing|piece|peg|mass|"
@@ -30,9 +32,14 @@ _TOLD = re.compile(
     rf"{_IF}(?:"
     rf"{_THING} ?(?:weighs|weighed|is|was|'s|has a mass of) (?:about |only |actually )?"
     rf"{_N.format('mass')} ?{_UNIT.format('mass_unit')}(?:,? not [^,.?]+)?|"
-    rf"(?:the|my|our) (?:hard |force )?limit (?:is|was|were|=) {_N.format('limit')} ?"
-    rf"{_UNIT.format('limit_unit')}|"
-    rf"(?:the|my|our) (?:force )?(?:band|goal|range|target) (?:is|was|were|=|goes from) "
+    rf"(?:(?:i|we) (?:do not|don['’]?t|must not|never) (?:want|allow|accept|need) (?:it |us )?"
+    rf"(?:to (?:get|see|have) )?(?:more than|over|above|anything over)|no more than|at most|"
+    rf"(?:(?:the|my|our|a) )?(?:(?:new|hard|force|upper|maximum|max) )*(?:limit|maximum|max|cap)"
+    rf"(?: (?:from|of|by|for) (?:the|my|our) \w+)? ?(?:is now|is|was|were|=|:|now)) "
+    rf"{_N.format('limit')} ?"
+    rf"{_UNIT.format('limit_unit')}(?: (?:on|for) (?:it|this|that|the \w+)| (?:is )?allowed)?|"
+    rf"(?:(?:the|my|our|a) )?(?:(?:new|force|wanted|target) )*(?:band|goal|range|target)"
+    rf" ?(?:is now|is|was|were|=|:|goes from|now) "
     rf"(?:from )?{_N.format('low')}(?: ?{_UNIT.format('low_unit')})? ?(?:to|-|–|and) ?"
     rf"{_N.format('high')} ?{_UNIT.format('high_unit')}"
     rf")(?P<end>[.!]?$|[,.;:] (?P<asked>.+))",
@@ -57,6 +64,13 @@ class Told:
     is_supposed: bool = False
 
     @property
+    def question(self) -> str:
+        """The question that it answers."""
+        if self.mass_g is not None:
+            return "What is the mass?"
+        return "What is the limit?" if self.limit_n is not None else "What is the band?"
+
+    @property
     def text(self) -> str:
         """It in words."""
         if self.mass_g is not None:
@@ -66,9 +80,31 @@ class Told:
         return f"the limit is {self.limit_n:g} N"
 
 
-def told_in(text: str) -> tuple[Told, str] | None:
-    """What a text tells, and what it asks besides, or ''; None where it tells nothing."""
-    found = _TOLD.fullmatch(text.strip())
+_CORRECTED = re.compile(
+    rf"(?:(?:no|sorry|actually|wait|ok|now|i mean|i meant)[,:]? )*(?:"
+    rf"(?:make|set|let us make|change) (?:it|that|this)(?: to)?|(?:i mean|i meant)) "
+    rf"(?P<value>{_N.format('first')}.*?)"
+    r"(?:,? (?:instead|then|please|now))*[.!]?",
+    re.I,
+)
+_BEFORE_IT = re.compile(r"[^\d,.:;?]+[,.:;] +(?=\D)")
+"""A clause before what is told: 'It's an egg, so the limit is 1.5 N.'"""
+
+
+def told_in(text: str, about: Meaning | None = None) -> tuple[Told, str] | None:
+    """What a text tells, and what it asks besides, or ''; None where it tells nothing.
+
+    Args:
+        text: The text.
+        about: What was asked for, or told, before it: what a correction is of.
+    """
+    text = text.strip()
+    corrected = _CORRECTED.fullmatch(text)
+    if corrected and (what := _told_before(about)):
+        text = f"{what} is {corrected['value']}"
+    found = _TOLD.fullmatch(text)
+    if found is None and (circumstance := _BEFORE_IT.match(text)):
+        found = _TOLD.fullmatch(text[circumstance.end() :])
     if found is None:
         return None
     mass_g = _number(found, "mass", "mass")
@@ -82,6 +118,17 @@ def told_in(text: str) -> tuple[Told, str] | None:
         return None
     told = Told(mass_g=mass_g, band_n=band_n, limit_n=limit_n, is_supposed=bool(found["if"]))
     return told, found["asked"] or ""
+
+
+def _told_before(about: Meaning | None) -> str:
+    """What a correction is of: 'the limit', 'the mass' or 'the band'; '' of others."""
+    if isinstance(about, Amount) and about.quantity in ("limit", "mass"):
+        return f"the {about.quantity}"
+    parts = about.parts if isinstance(about, Several) else (about,)
+    is_band = all(
+        isinstance(each, Amount) and each.quantity in ("band_low", "band_high") for each in parts
+    ) or (about is not None and names_of(about) == ("band_low_n", "force_n", "band_high_n"))
+    return "the band" if is_band else ""
 
 
 def _number(found: re.Match[str], name: str, dimension: str) -> float | None:
@@ -99,8 +146,10 @@ def _float(number: str) -> float:
 def with_told(scene: AskedScene, told: Told) -> AskedScene:
     """A scene with what was told.
 
+    A limit below the band of the scene leaves no band.
+
     Raises:
-        ValueError: It can't be so: a mass of 0, a band that is upside down, a limit without a band.
+        ValueError: It can't be so: a mass of 0, a band that is upside down.
         LimitError: The contract would be refused.
     """
     if told.mass_g is not None:
@@ -108,7 +157,14 @@ def with_told(scene: AskedScene, told: Told) -> AskedScene:
     if told.band_n is None and told.limit_n is None:
         return scene
     if told.band_n is not None:
-        return replace(scene, contract=band_contract(*told.band_n))
-    if scene.contract is None:
-        raise ValueError("a limit needs a force band; tell me the band too")
-    return replace(scene, contract=replace(scene.contract, limit_n=told.limit_n))
+        limit_n = scene.told_limit_n
+        is_below = limit_n is not None and limit_n >= told.band_n[1]
+        contract = band_contract(*told.band_n, limit_n if is_below else None)
+        return replace(scene, contract=contract, told_limit_n=limit_n if is_below else None)
+    assert told.limit_n is not None
+    contract = scene.contract
+    if contract is not None and told.limit_n < contract.terms.force_n.high:
+        contract = None
+    if contract is not None:
+        contract = replace(contract, limit_n=told.limit_n)
+    return replace(scene, contract=contract, told_limit_n=told.limit_n)

@@ -5,7 +5,15 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass, replace
 
-from tacgrasp.lessons.dialogue.meaning import Description, Meaning, OffTopic, Unknowable, Why
+from tacgrasp.lessons.dialogue.meaning import (
+    AnswerKind,
+    Description,
+    Meaning,
+    OffTopic,
+    Unknowable,
+    Why,
+    kind_of,
+)
 from tacgrasp.lessons.dialogue.query import query_of
 from tacgrasp.lessons.read_question import ReadQuestion
 from tacgrasp.lessons.turns.follow_ups import (
@@ -13,10 +21,13 @@ from tacgrasp.lessons.turns.follow_ups import (
     difference_of,
     in_another_unit,
     leaves_unit_out,
+    of_advice,
     of_supposed_force,
     reason_of,
     with_quantity_of,
 )
+from tacgrasp.lessons.turns.leads import without_lead
+from tacgrasp.lessons.turns.references import of_number
 from tacgrasp.lessons.turns.rewriting import about_the_force, noun_of, rewritten, with_noun
 from tacgrasp.lessons.turns.told import Told, told_in
 from tacgrasp.lessons.understanding import (
@@ -60,6 +71,8 @@ class Turn:
         read: What it means; None where it came to nothing.
         text: The question as it stands alone, for the next one to follow; '' before the first.
         about: What was last asked for, a word, number or condition; None before the first.
+        number: The number that was last asked for; None before the first.
+        earlier: The number before that; None likewise.
         noun: What a pronoun may stand for: 'the limit', where that was asked for; ''.
         told: What the question tells besides: a mass, a band or a limit; None where it tells none.
     """
@@ -67,6 +80,8 @@ class Turn:
     read: ReadQuestion | None = None
     text: str = ""
     about: Meaning | None = None
+    number: Meaning | None = None
+    earlier: Meaning | None = None
     noun: str = ""
     told: Told | None = None
 
@@ -82,7 +97,10 @@ class Turn:
             return replace(self, read=read, text=self.text or text, told=None)
         about = self.about if isinstance(read.meaning, Why | Description) else read.meaning
         noun = noun_of(read.meaning) or ("" if is_whole else self.noun)
-        return Turn(read=read, text=text, about=about, noun=noun)
+        number, earlier = self.number, self.earlier
+        if kind_of(read.meaning) is AnswerKind.NUMBER and read.meaning != number:
+            number, earlier = read.meaning, number
+        return Turn(read=read, text=text, about=about, number=number, earlier=earlier, noun=noun)
 
 
 def next_turn(writer: QueryWriter, question: str, before: Turn) -> Turn:
@@ -107,7 +125,7 @@ def next_turn(writer: QueryWriter, question: str, before: Turn) -> Turn:
         read = understood_by_grammar(text)
         if read is not None and not isinstance(read.meaning, Unknowable | OffTopic):
             return before.then(text, read)
-    if before.about is not None and (read := _by_meaning(question, before.text, before.about)):
+    if before.about is not None and (read := _by_meaning(question, before, before.about)):
         return before.then(before.text, read)
     if named := with_noun(question, before.noun):
         return before.then(named, understood_by_model(writer, named))
@@ -116,25 +134,35 @@ def next_turn(writer: QueryWriter, question: str, before: Turn) -> Turn:
 
 def _telling(text: str, before: Turn) -> Turn | None:
     """A turn that tells something, with or without a question about it; None of others."""
-    if (found := told_in(text)) is None or understood_by_grammar(text) is not None:
+    if (found := told_in(text, before.about)) is None or understood_by_grammar(text) is not None:
         return None
     told, asked = found
     read = understood_by_grammar(asked) if asked else None
     if read is None and (asked or told.is_supposed):
         return None
-    return replace(before.then(text if asked else before.text, read), told=told)
+    if read is not None:
+        return replace(before.then(text, read), told=told)
+    # what is told is what the next question may point at
+    about = understood_by_grammar(told.question)
+    turn = before.then(told.question, about)
+    return replace(turn, read=None, told=told)
 
 
-def _by_meaning(question: str, before: str, about: Meaning) -> ReadQuestion | None:
+def _by_meaning(question: str, before: Turn, about: Meaning) -> ReadQuestion | None:
     """A follow-up that takes its other side, its unit or its quantity from what was meant."""
     meaning: Meaning | None = None
     if asks_by_how_much(question):
-        meaning = difference_of(about)
+        meaning = difference_of(about, question)
     elif leaves_unit_out(question) and (named := with_quantity_of(question, about)):
         return understood_by_grammar(named)
-    elif understood_by_grammar(question, before) is None:
-        meaning = in_another_unit(question, about)
-        meaning = meaning or (reason_of(about) if _WHY.fullmatch(question.strip()) else None)
+    elif unit := in_another_unit(question, about):
+        meaning = unit
+    elif by_number := of_number(question, before.number, before.earlier):
+        meaning = by_number
+    elif by_advice := of_advice(question, about):
+        meaning = by_advice
+    elif understood_by_grammar(question, before.text) is None:
+        meaning = reason_of(about) if _WHY.fullmatch(question.strip()) else None
     if (
         meaning is None
         and (of_force := about_the_force(question)) != question
@@ -148,6 +176,9 @@ def _by_meaning(question: str, before: str, about: Meaning) -> ReadQuestion | No
 
 def _read_behind(writer: QueryWriter, question: str, before: Turn) -> Turn:
     """A question as it stands, or behind the one before it."""
+    core = without_lead(question)
+    if core != question and (read := understood_by_grammar(core)):
+        return before.then(core, read, is_whole=True)
     if _FOLLOWS.match(question):
         read = understood(writer, question, before.text)
         return before.then(before.text, _asked_for(question, read))

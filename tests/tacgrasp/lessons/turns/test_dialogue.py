@@ -56,10 +56,14 @@ def test_a_band_behind_if_counts_for_that_question_alone(talk):
     assert "within" in ask("Is it safe to lift?")
 
 
-def test_a_limit_that_the_band_passes_is_not_taken(talk):
+def test_a_limit_below_the_band_leaves_no_band(talk):
     ask = talk()
-    assert ask("The limit is 0.8 N.").startswith("I can't take that: ")
-    assert ask("What is the limit?") == "1.30 N."
+    assert ask("The limit is 0.8 N.") == (
+        "Noted: the limit is 0.8 N, and the band above it no longer counts."
+    )
+    assert ask("Are we over it?") == "Yes, probably: the force is 0.83 N."
+    assert ask("Is it safe to lift?") == "I can't say: no force band is given."
+    assert ask("The limit is 0 N.").startswith("I can't take that: ")
 
 
 def test_how_sure_an_answer_is_is_told_by_its_interval_or_chances(talk):

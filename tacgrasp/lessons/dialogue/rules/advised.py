@@ -1,0 +1,129 @@
+"""Questions whether a certain step is the one that is advised.
+
+    Would you advise lifting now?                       action == 'lift'
+    Is the next step a move of some sort?               action in ['move_up', 'move_down', ...]
+    Does your advice involve shifting sideways?         action in ['move_left', 'move_right']
+    Hold, lift or something else?                       the first two, or 'something else'
+
+Not here: what is advised, and why (``tacgrasp.lessons.dialogue.families``).
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+
+from primitives import Primitive
+from tacgrasp.lessons.dialogue.meaning import Calculated
+from tacgrasp.lessons.dialogue.plainer import AUXILIARY
+from tacgrasp.lessons.dialogue.scene import HOLD, LIFT
+
+_UP, _DOWN, _LEFT, _RIGHT = (
+    Primitive.MOVE_UP.value,
+    Primitive.MOVE_DOWN.value,
+    Primitive.MOVE_LEFT.value,
+    Primitive.MOVE_RIGHT.value,
+)
+_MOVE = (
+    r"(?:mov(?:e|es|ing|ement)|shift(?:s|ing)?|slid(?:e|es|ing)|translat(?:e|ion|ing)|re-?position"
+    r"(?:ing)?|re-?cent(?:er|re|ring|ering)|nudg(?:e|es|ing)|go(?:ing)?)"
+)
+_GRIP = r"(?:grip|squeeze|press|push|pinch|hold|clamp|grasp)(?:p?ing)?"
+_FIRMER = r"(?:harder|tighter|firmer|stronger|more(?: (?:force|firmly|strongly|tightly))?)"
+_SOFTER = r"(?:softer|looser|lighter|gentler|less(?: (?:force|firmly|strongly|tightly|hard))?)"
+_STEPS: tuple[tuple[re.Pattern[str], tuple[str, ...]], ...] = tuple(
+    (re.compile(rf"\b(?:{pattern})\b"), actions)
+    for pattern, actions in (
+        (
+            rf"sideways|side to side|horizontally|left or right|{_MOVE} (?:to the )?(?:left or "
+            r"(?:to the )?right|right or (?:to the )?left)",
+            (_LEFT, _RIGHT),
+        ),
+        (rf"vertically|up or down|lengthways?|{_MOVE} (?:down or up)", (_UP, _DOWN)),
+        (rf"{_MOVE} (?:\w+ ){{0,3}}(?:to the )?left", (_LEFT,)),
+        (rf"{_MOVE} (?:\w+ ){{0,3}}(?:to the )?right", (_RIGHT,)),
+        (rf"{_MOVE} (?:\w+ ){{0,3}}(?:up|upwards?|palm)", (_UP,)),
+        (rf"{_MOVE} (?:\w+ ){{0,3}}(?:down|downwards?|fingertip)", (_DOWN,)),
+        (
+            rf"{_GRIP} (?:\w+ ){{0,2}}{_FIRMER}|(?:increas|rais)(?:e|ing)|"
+            rf"tighten(?:ing)?|{_FIRMER}",
+            (Primitive.INCREASE_FORCE.value,),
+        ),
+        (
+            rf"{_GRIP} (?:\w+ ){{0,2}}{_SOFTER}|(?:decreas|reduc)(?:e|ing)|lower(?:ing)? the force|"
+            rf"loosen(?:ing)?|eas(?:e|ing) off|back(?:ing)? off|{_SOFTER}",
+            (Primitive.DECREASE_FORCE.value,),
+        ),
+        (
+            r"(?:start|starting|begin|beginning|try|trying|grasp|grasping|grip|gripping) "
+            r"(?:over|again|anew|afresh)|re-?grasp(?:ing)?|re-?grip(?:ping)?|reset(?:ting)?|"
+            r"let(?:ting)? (?:it )?go|open(?:ing)? (?:up|the (?:gripper|fingers|hand))|"
+            r"releas(?:e|ing)",
+            (Primitive.RESET.value,),
+        ),
+        (r"lift(?:ing)?|pick(?:ing)?(?: it)? up|rais(?:e|ing) it|hoist(?:ing)?", (LIFT,)),
+        (
+            r"hold(?:ing)?(?: still)?|stay(?:ing)?(?: put)?|wait(?:ing)?|do(?:ing)? nothing|"
+            r"keep(?:ing)? still|leav(?:e|ing) it",
+            (HOLD,),
+        ),
+        (_MOVE, (_UP, _DOWN, _LEFT, _RIGHT)),
+    )
+)
+"""Words of steps, and the values of ``action`` that they mean; the first that fits counts."""
+
+_ADVICE = re.compile(
+    r"\b(?:advi[sc]e[ds]?|advising|recommend\w*|suggest\w*|proposed?|your (?:tip|counsel|verdict)|"
+    r"next (?:step|move|action)|want me to|tell(?:ing)? me to|have me)\b"
+)
+_ASKS_YES = re.compile(rf"{AUXILIARY}(?:n['’]?t)?\b")
+_DENIED = re.compile(r"\b(?:not|n['’]t|never|isn['’]?t|don['’]?t|doesn['’]?t|against)\b")
+_IN_QUESTION = re.compile(rf"^{AUXILIARY}n['’]?t\b")
+_ELSE = r"(?:something (?:else|different|other)|neither(?: of them)?|other|another (?:one|step))"
+_CHOICE = re.compile(
+    rf"(?P<first>[a-z ]+?)(?:,| or) (?P<second>[a-z ]+?),? or (?P<else>{_ELSE})"
+    r"(?:[ ,:–-]+(?:pick|choose|which|what|say|one|is it|next|now).*)?[?.! ]*"
+)
+
+
+def step_condition(words: str) -> str:
+    """The condition that a step which some words name is advised; '' where they name none."""
+    for pattern, actions in _STEPS:
+        if pattern.search(words):
+            if len(actions) == 1:
+                return f"action == '{actions[0]}'"
+            return f"action in [{', '.join(repr(each) for each in actions)}]"
+    return ""
+
+
+def is_step_advised(question: str) -> Calculated | None:
+    """Whether the step that a question names is advised, by its words alone; None of others."""
+    words = question.lower().strip()
+    if re.search(r"\d|\bwhy\b|\bif\b|\bbecause\b", words):
+        return None
+    condition = step_condition(_ADVICE.sub(" ", words))
+    if not condition:
+        return None
+    is_denied = _DENIED.search(words) and not _IN_QUESTION.match(words)
+    return Calculated(truth=f"not ({condition})" if is_denied else condition, unit=None)
+
+
+def advised(question: str) -> Calculated | None:
+    """What a question asks of the advice: yes or no, or one of two steps; None of others."""
+    words = question.lower().strip()
+    if _ASKS_YES.match(words) and _ADVICE.search(words) and " or no" not in words:
+        return is_step_advised(words)
+    if (found := _CHOICE.fullmatch(words)) is None:
+        return None
+    first, second = (_one_of(found[name]) for name in ("first", "second"))
+    if not first or not second:
+        return None
+    told: Mapping[str, str] = {found["first"].strip(): first, found["second"].strip(): second}
+    branches = " else ".join(f"'{word}' if {condition}" for word, condition in told.items())
+    return Calculated(truth=f"{branches} else '{found['else']}'", unit=None)
+
+
+def _one_of(words: str) -> str:
+    """The condition of a step that some words name and nothing else; '' of others."""
+    whole = next((p for p, _ in _STEPS if p.fullmatch(words.strip())), None)
+    return step_condition(words.strip()) if whole else ""

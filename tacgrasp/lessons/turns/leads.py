@@ -1,0 +1,25 @@
+"""A follow-up without the words that tie it to the line before: 'and', 'so', 'ok, then'."""
+
+from __future__ import annotations
+
+import re
+
+_LEAD = re.compile(
+    r"(?:(?:and|but|or|so|ok|okay|well|then|now|no|yes|hm+|ah|oh|right|cool|nice|good|great|"
+    r"fine|thanks|thank you|sorry|fair enough|alright|all right|got it|i see|interesting|"
+    r"just|also|next|still|actually|wait|hang on|hold on|back to (?:the \w+|mine|it))"
+    r"(?:[,.:;!]+ *| +-+ +| +)(?=\S))+",
+    re.I,
+)
+_TAIL = re.compile(
+    r"(?:[, ]+(?:then|instead|please|pls|too|as well|now|also|at least|again|exactly|precisely|"
+    r"right now|at the moment|though|by the way|in total|altogether))+(?=[?.! ]*$)",
+    re.I,
+)
+
+
+def without_lead(question: str) -> str:
+    """A question without what leads into it, and without a last 'then' or 'please'."""
+    text = question.strip()
+    bare = _TAIL.sub("", _LEAD.sub("", text, count=1))
+    return bare or text

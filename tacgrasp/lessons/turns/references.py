@@ -1,0 +1,154 @@
+"""Follow-ups whose pronoun stands for the number that was answered before.
+
+    What is the limit?      Is that more than 2 N?          limit_n > 2
+    How deep, in microns?   What would half of that be?     0.5 * depth_mm in µm
+    What is the force?      And with 10 % more?             1.1 * force_n
+    x in mm?  y too         The sum of both?                x_mm + y_mm
+
+Not here: conditions under a supposed force (``tacgrasp.lessons.turns.follow_ups``).
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+
+from tacgrasp.lessons.dialogue.calculations.asked import asked_words
+from tacgrasp.lessons.dialogue.calculations.calculated import calculated, calculated_about
+from tacgrasp.lessons.dialogue.calculations.terms import PLAIN, Term, alike
+from tacgrasp.lessons.dialogue.meaning import Amount, Calculated, Meaning, truth_of
+from tacgrasp.lessons.dialogue.plainer import in_words
+from tacgrasp.lessons.dialogue.quantities import QUANTITIES, UNITS
+from tacgrasp.lessons.turns.leads import without_lead
+
+_POINTS = re.compile(r"\b(?:that|this|it|those|these|the result|the same)\b", re.I)
+
+_WOULD_BE = (
+    r"(?:(?:what|how much|how many \S+|which) (?:would|will|is|does|do|are|makes?) )?"
+    r"{}(?: (?:would|will|does|do|is|(?:what|how much) (?:would|will|is)))?(?: it| that)?"
+    r"(?: (?:be|make|come to|give|read|mean))?"
+)
+_AS_MUCH = (
+    r"(?: (?:of )?(?:that|it|this|those|the same|as (?:much|many|hard|deep|strong|far|big|large|"
+    r"heavy|firm|tight|strongly|firmly)(?: as that)?|the (?:force|depth|grip|amount|value|"
+    r"number|mass|area)))?"
+)
+_TIMES = {"half": 0.5, "twice": 2, "double": 2, "triple": 3, "thrice": 3, "three times": 3,
+          "four times": 4, "quadruple": 4, "a third": 1 / 3, "a quarter": 0.25, "a tenth": 0.1,
+          "halved": 0.5, "doubled": 2, "tripled": 3, "ten times": 10, "five times": 5}  # fmt: skip
+_MULTIPLE = re.compile(
+    _WOULD_BE.format(
+        rf"(?:(?P<times>{'|'.join(_TIMES)})|(?P<percent>\d+(?:\.\d+)?) ?(?:%|percent)(?= of)|"
+        rf"(?P<number>\d+(?:\.\d+)?) times){_AS_MUCH}"
+    )
+)
+_SHARE_MORE = re.compile(
+    r"(?:(?:what|how much) )?(?:if |with |at |plus |minus )?(?:i |we |you )?(?:(?:add|take off|"
+    r"raise it by|increase it by|lower it by|reduce it by|went up|went down|go up|go down)"
+    r"(?: by)? )?(?P<share>\d+(?:\.\d+)?) ?(?:%|percent)(?: (?P<way>more|less|harder|softer|"
+    r"higher|lower|deeper|firmer|extra|on top|added|off))?(?:,? (?:what|how much) (?:would|will) "
+    r"(?:it|that) (?:read|be|give|come to|make))?"
+)
+_LESS = re.compile(r"\b(?:less|softer|lower|reduce|take off|minus|off|down)\b")
+
+_DIFFERENCE = re.compile(
+    r"(?:(?:what is|what's|and|how big is) )?(?:the |their )?(?:difference|gap|distance)"
+    r"(?: (?:between|of) (?:the two|them|both|those(?: two)?|these(?: two)?))?|"
+    r"how (?:far|much) (?:apart|do) (?:are )?(?:the two|they|those(?: two)?|these(?: two)?|both)"
+    r"(?: (?:apart|differ))?|by how much do (?:they|the two) differ"
+)
+_SUM = re.compile(
+    r"(?:(?:what is|what's) )?(?:the |their )?(?:sum|total)(?: of (?:both|the two|them|those|"
+    r"these)(?: two)?)?|(?:both|the two|them)(?: added)? (?:together|added(?: up)?|in total)"
+)
+
+
+_COMPARES = re.compile(
+    r"(?:more|less|over|under|above|below|at least|at most|exactly|about|deeper|shallower|higher|"
+    r"lower|heavier|lighter|bigger|smaller|stronger|weaker|larger)(?: than)? (?=\d|\.\d|the |our |"
+    r"half |twice )|than (?=\d|\.\d)"
+)
+_HAVE_IT = re.compile(
+    r"(?:do|are|have) (?:i|we|you)(?: (?:have|apply|press with|reach|reached|got|make|there|at))*"
+    r"(?: (?:that|it|this|as)(?: much| many)?)?(?: force)?(?: (?:already|yet|now|there))*|"
+    r"(?:is|would) (?:the|our|my) (?:current |present )?(?:force|grip|squeeze) "
+    r"(?:be )?(?:enough|sufficient|do|suffice)(?: for (?:that|it|this))?|"
+    r"(?:does|is) (?:that|it|the grip|the force) (?:suffice|enough)"
+)
+"""'Do we have that much already?', after a force that is needed or agreed."""
+
+
+def of_number(question: str, about: Meaning | None, earlier: Meaning | None) -> Calculated | None:
+    """What a follow-up asks of the number before it; None where it asks for something else.
+
+    Args:
+        question: The follow-up.
+        about: The number that was asked for before it; None for none.
+        earlier: What was asked for before that; None for nothing.
+    """
+    term, unit = _number(about)
+    if term is None:
+        return None
+    core = in_words(without_lead(question)).lower().strip(" ?.!")
+    if _COMPARES.match(core):
+        core = f"is it {'' if not core.startswith('than') else 'more '}{core}"
+    if _HAVE_IT.fullmatch(core) and term.dimension == "force" and "force_n" not in term.expression:
+        return Calculated(truth=f"force_n >= {term.factor}", unit=None)
+    if of_both := _of_both(core, term, earlier):
+        return replace(of_both, unit=unit)
+    if found := _MULTIPLE.fullmatch(core):
+        factor = _TIMES.get(found["times"] or "") or float(
+            found["number"] or float(found["percent"] or 100) / 100
+        )
+        return Calculated(truth=f"{factor:.6g} * {term.factor}", unit=unit)
+    if found := _SHARE_MORE.fullmatch(core):
+        sign = "-" if _LESS.search(core) else "+"
+        if not found["way"] and not re.match(r"(?:what |with |if |plus |minus )", core):
+            return None
+        truth = f"(1 {sign} {float(found['share']):.6g} / 100) * {term.factor}"
+        return Calculated(truth=truth, unit=unit)
+    if _POINTS.search(core) is None:
+        return None
+    return _calculated(core, term, unit)
+
+
+def _calculated(core: str, term: Term, unit: str) -> Calculated | None:
+    """What is calculated of a pronoun that stands for a number."""
+    asked = asked_words(core)
+    with_units = replace(asked, unit=asked.unit or unit)
+    asked = replace(with_units, words=with_units.in_its_unit(asked.words))
+    usual = calculated(core)
+    told = calculated_about(asked, term)
+    if told is None or (usual is not None and usual.truth == told.truth):
+        return None
+    is_of_it = term.expression in told.truth or term.factor in told.truth
+    return told if is_of_it else None
+
+
+def _of_both(core: str, term: Term, earlier: Meaning | None) -> Calculated | None:
+    """The difference, or the sum, of the last two numbers."""
+    is_sum = _SUM.fullmatch(core) is not None
+    if not is_sum and _DIFFERENCE.fullmatch(core) is None:
+        return None
+    other, _ = _number(earlier)
+    pair = alike(other, term) if other is not None else None
+    if pair is None or pair[0].expression == pair[1].expression:
+        return None
+    a, b = pair
+    truth = f"{a.expression} + {b.expression}" if is_sum else f"abs({a.expression} - {b.factor})"
+    return Calculated(truth=truth, unit="")
+
+
+def _number(meaning: Meaning | None) -> tuple[Term | None, str]:
+    """A number that was asked for as a noun phrase's meaning, and its unit; None of others."""
+    if not isinstance(meaning, Amount | Calculated) or meaning.unit is None:
+        return None, ""
+    truth, unit = truth_of(meaning), meaning.unit
+    if isinstance(meaning, Amount):
+        dimension = UNITS[QUANTITIES[meaning.quantity].unit].dimension
+    elif unit:
+        dimension = UNITS[unit].dimension if unit in UNITS else unit
+    else:
+        dimension = PLAIN
+    is_sum = re.fullmatch(r"\w+|\w+\([^()]*\)", truth) is None
+    return Term(expression=truth, dimension=dimension, words="it", is_sum=is_sum), unit
