@@ -34,6 +34,7 @@ from tacgrasp.lessons.dialogue.clauses.speech import asked_in_speech
 from tacgrasp.lessons.dialogue.clauses.verdicts import is_doubted_statement
 from tacgrasp.lessons.dialogue.clauses.worded_amounts import in_class_words, without_remark
 from tacgrasp.lessons.dialogue.conditions import check_of
+from tacgrasp.lessons.dialogue.expression import Expression
 from tacgrasp.lessons.dialogue.families.catalogue import understand
 from tacgrasp.lessons.dialogue.families.misspelled import respelled
 from tacgrasp.lessons.dialogue.meaning import (
@@ -44,6 +45,7 @@ from tacgrasp.lessons.dialogue.meaning import (
     Unknowable,
 )
 from tacgrasp.lessons.dialogue.plainer import (
+    about_its_topic,
     in_words,
     is_denied_first,
     plainer,
@@ -56,6 +58,8 @@ from tacgrasp.lessons.dialogue.query import (
 )
 from tacgrasp.lessons.dialogue.rules.advised import advised
 from tacgrasp.lessons.dialogue.rules.friction import frictional
+from tacgrasp.lessons.dialogue.rules.members import member_of
+from tacgrasp.lessons.dialogue.rules.regions import of_region
 from tacgrasp.lessons.dialogue.rules.ruled import ruled_whole
 from tacgrasp.lessons.dialogue.rules.unread import is_beyond
 from tacgrasp.lessons.dialogue.sided_questions import to_named_side
@@ -153,7 +157,7 @@ def understood_by_grammar(question: str, before: str = "") -> ReadQuestion | Non
     alone = without_remark(question)
     if alone and (in_words_alone := understood_by_grammar(alone, before)):
         return _in_class_words(in_words_alone)
-    question = in_words(question)
+    question = about_its_topic(in_words(question))
     plain = plainer(question)
     is_denied = is_denied_first(question) and not is_denied_first(plain)
     # 'isn't more than 1 N felt' would be read as 'is not more than 1 N felt'
@@ -197,6 +201,8 @@ def _composed(question: str) -> Meaning | None:
     return (
         frictional(question)
         or advised(question)
+        or of_region(question)
+        or member_of(question)
         or replied(question)
         or (calculated(question) if begins_supposed(question) else None)
         or chosen(question)
@@ -326,6 +332,11 @@ def _in_its_words(question: str, read: ReadQuestion) -> ReadQuestion:
 
 def _denied(read: ReadQuestion | None, question: str) -> ReadQuestion | None:
     """What asks whether a condition does not hold; None where none was read."""
+    if read is not None and isinstance(read.meaning, Calculated) and read.meaning.unit is None:
+        if Expression(read.meaning.truth).choices:
+            return None
+        opposite = Calculated(truth=f"not ({read.meaning.truth})", unit=None)
+        return ReadQuestion(query_of(opposite), opposite, read.confidence)
     if read is None or not isinstance(check := read.meaning, Check) or not check.test:
         return None
     meaning = check_of(check.test, denied=not check.denied, length=check.length)

@@ -112,7 +112,8 @@ _ADDED = re.compile(
     r",? (?:rounded )?(?:to|with) (?:\w+|\d) (?:decimals?|decimal places|digits|"
     r"significant (?:figures|digits))|"
     r"\bboth (?=\w+ and (?!\w+ (?:in|is|are)\b))|"
-    r"\beither (?!(?:of (?:these|them|the two)|holds?)\b)(?=.* or )|\ball (?=in \w+\W*$)",
+    r"\beither (?!(?:of (?:these|them|the two)|holds?)\b)(?=.* or )|\ball (?=in \w+\W*$)|"
+    r"\beven (?=(?:bigger|larger|deeper|more|larger|smaller|less)\b)",
     re.I,
 )
 _SUPERIOR, _INFERIOR = (re.compile(rf"\b{word} to\b", re.I) for word in ("superior", "inferior"))
@@ -180,6 +181,19 @@ _SQUARED = re.compile(
 _NUMERO = re.compile(r"\b(serial|phone|part|item|order|batch|lot|model) no\.", re.I)
 """'Serial no. of the part'."""
 
+_CONVERT = re.compile(
+    r"^(?:please )?(?:convert|express|translate|turn) (?P<what>(?:the |its |our )?[a-z ]+?) "
+    r"(?:to|into|in|as) (?P<unit>[a-zµ²]+)(?=[?.! ]*$)",
+    re.I,
+)
+_ITS_TOPIC = re.compile(
+    r"^(?:(?:and|so|now|as for|what about) )*(?:the |its |our )?(?P<topic>(?:contact |grip |felt )?"
+    r"(?:force|depth|area|shape|texture|surface|position|indentation))[,.:;–—-]+ "
+    rf"(?P<verb>{AUXILIARY}) (?:it|that|this)(?= )",
+    re.I,
+)
+"""'The force, is it inside the band?' asks about one thing."""
+
 _HAPPENS = re.compile(
     r"^(?:you )?(?:would(?:n['’]t)?|do(?:n['’]t)?|might) (?:you )?(?:not )?(?:by (?:any )?chance )?"
     r"happen to (?:be )?(?:holding|hold|have|touching|touch|feeling|feel|gripping|grip) "
@@ -208,6 +222,7 @@ _WORD_FITS = re.compile(
 _IN_UNIT = re.compile(r"\bin [a-zµ²%]+\b|\bhow many\b", re.I)
 _NUMBER = r"(?<![\d.,])(\d+(?:\.\d+)?)"
 _FOREIGN = (
+    (r"(?:grams?[ -](?:of )?force|gf)\b", 9.80665e-3, "newtons"),
     (r"(?:pounds?|lbs?|lbf)(?:[ -](?:of )?force)?\b", 453.59237, "grams"),
     (r"(?:ounces?|oz|ozf)(?:[ -](?:of )?force)?\b", 28.349523, "grams"),
     (r"(?:kgf|kp|kilograms?[ -](?:of )?force|kiloponds?)\b", 1000, "grams"),
@@ -238,6 +253,11 @@ def in_words(question: str) -> str:
     return question
 
 
+def about_its_topic(question: str) -> str:
+    """A question about what it names first: 'the force, is it ...' becomes 'is the force ...'."""
+    return _ITS_TOPIC.sub(r"\g<verb> the \g<topic>", question)
+
+
 def is_denied_first(question: str) -> bool:
     """Whether a question begins with a denied verb, which expects 'yes': 'isn't it deep?'."""
     return _DENIED_FIRST.match(question) is not None
@@ -253,6 +273,7 @@ def plainer(question: str) -> str:
         text,
     )
     text = _INFERIOR.sub("below", _SUPERIOR.sub("above", _MEANING.sub("", text)))
+    text = _CONVERT.sub(r"give me \g<what> in \g<unit>", text)
     text = _NUMERO.sub(r"\1 number", metric(text))
     if opening := _ADDRESS.match(text):
         text = text[opening.end() :]

@@ -109,6 +109,18 @@ def with_quantity_of(question: str, asked: Meaning) -> str:
     return _BARE_NUMBER.sub(rf"\g<number> {asked.unit}", about)
 
 
+def _measured(asked: Meaning) -> Meaning:
+    """The depth or the area behind a word for it; anything else as it is."""
+    shown: tuple[str, ...] = ()
+    if isinstance(asked, Which):
+        shown = (asked.name,)
+    elif isinstance(asked, Check):
+        shown = asked.shows
+    name = {"depth": "depth", "depth_word": "depth", "area": "area", "area_word": "area"}
+    quantity = name.get(shown[0], "") if len(shown) == 1 else ""
+    return Amount(quantity=quantity, unit=QUANTITIES[quantity].unit) if quantity else asked
+
+
 def in_another_unit(question: str, asked: Meaning) -> Meaning | None:
     """The number that was asked for before, in the unit that a follow-up names; None of others.
 
@@ -116,6 +128,7 @@ def in_another_unit(question: str, asked: Meaning) -> Meaning | None:
     """
     found = _IN_UNIT.fullmatch(without_lead(question))
     symbol = unit_symbol(found["unit"]) if found else ""
+    asked = _measured(asked)
     if not symbol or not isinstance(asked, Amount | Calculated) or not asked.unit:
         return None
     own, other = UNITS[asked.unit].dimension, UNITS[symbol].dimension
@@ -142,6 +155,28 @@ def of_advice(question: str, asked: Meaning) -> Calculated | None:
         if not _OPENS.match(without_lead(question))
         else None
     )
+
+
+_HEAVIER = re.compile(
+    r"(?:(?:what )?if )?(?:it|that|this|the \w+) (?:were|was|is|weighed|weighs|had)(?: really)? "
+    r"(?P<times>twice|half|double|three times|ten times|\d+(?:\.\d+)? times)"
+    r"(?: (?:as (?:heavy|much)|the (?:mass|weight)|that))*|"
+    r"(?:for )?one (?P<one>twice|half) as heavy",
+    re.I,
+)
+_SO_HEAVY = {"twice": 2.0, "double": 2.0, "half": 0.5, "three times": 3.0, "ten times": 10.0}
+
+
+def of_another_mass(question: str, asked: Meaning | None) -> Calculated | None:
+    """What was asked before, of an object that is twice as heavy; None of other questions."""
+    found = _HEAVIER.fullmatch(without_lead(question).rstrip("?.! "))
+    truth = truth_of(asked) if isinstance(asked, Amount | Check | Calculated) else ""
+    if found is None or "mass_g" not in truth:
+        return None
+    times = (found["times"] or found["one"]).lower()
+    factor = _SO_HEAVY.get(times) or float(times.split()[0])
+    unit = None if isinstance(asked, Check) or asked is None else asked.unit
+    return Calculated(truth=re.sub(r"\bmass_g\b", f"({factor:g} * mass_g)", truth), unit=unit)
 
 
 def of_supposed_force(asked: Meaning, supposed: Meaning) -> Calculated | None:

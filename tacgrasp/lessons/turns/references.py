@@ -100,16 +100,30 @@ def of_number(question: str, about: Meaning | None, earlier: Meaning | None) -> 
         factor = _TIMES.get(found["times"] or "") or float(
             found["number"] or float(found["percent"] or 100) / 100
         )
-        return Calculated(truth=f"{factor:.6g} * {term.factor}", unit=unit)
+        base = term if _POINTS.search(core) else _felt(term, earlier)
+        return Calculated(truth=f"{factor:.6g} * {base.factor}", unit=unit)
     if found := _SHARE_MORE.fullmatch(core):
         sign = "-" if _LESS.search(core) else "+"
         if not found["way"] and not re.match(r"(?:what |with |if |plus |minus )", core):
             return None
-        truth = f"(1 {sign} {float(found['share']):.6g} / 100) * {term.factor}"
+        share = f"(1 {sign} {float(found['share']):.6g} / 100)"
+        truth = f"{share} * {_felt(term, earlier).factor}"
         return Calculated(truth=truth, unit=unit)
     if _POINTS.search(core) is None:
         return None
+    if re.search(r"\binstead\b", question, re.I):
+        term = _felt(term, earlier)
+    core = re.sub(r"\b(that|this) one\b", r"\1", core.partition(", if ")[0])
+    if found := _MULTIPLE.fullmatch(core):
+        return of_number(core, about, None)
     return _calculated(core, term, unit)
+
+
+def _felt(term: Term, earlier: Meaning | None) -> Term:
+    """What a number was made of, where it was worked out of the one before; else the number."""
+    other, _ = _number(earlier)
+    is_made_of = other is not None and other.expression in term.expression
+    return other if other is not None and is_made_of else term
 
 
 def _calculated(core: str, term: Term, unit: str) -> Calculated | None:

@@ -34,7 +34,7 @@ _LEAD = (
     r"(?:(?:and|but|or|so|ok|okay|well|then|now|no|sorry|what about|how about|i meant?|"
     r"make (?:it|that))[, ]+)*"
 )
-_END = r"(?:[, ]+(?:then|instead|please|now|more|extra))*[?.! ]*"
+_END = r"(?:[, ]+(?:then|instead|please|pls|now|more|extra|too|as well|at least))*[?.! ]*"
 
 _UNIT_WORDS = {
     "N": r"N|newtons?",
@@ -70,6 +70,9 @@ _SUPPOSED = (
 """A question with a supposition, before or behind what is asked."""
 
 _ANOTHER_IF = re.compile(rf"{_LEAD}(?P<if>if [^,]+?)[?.! ]*", re.I)
+_CHANGED = re.compile(r"\b(?:halved|doubled|tripled|raised|increased|lowered|reduced)\b", re.I)
+"""What names the supposed force itself."""
+
 _UNDER_IT = re.compile(r"\b(?:it|that|this|then|still|would)\b", re.I)
 _THEN = re.compile(r",? ?\bthen\b", re.I)
 _SUBJECT = re.compile(r"\b(?P<verb>is|are|would|will|does|do) (?:it|that|this)\b", re.I)
@@ -104,7 +107,7 @@ _ALONG = {
 _ACROSS = {**_ALONG, **{other: word for word, other in _ALONG.items()}, "vertically": "sideways"}
 _ANOTHER_AXIS = re.compile(
     rf"{_LEAD}(?:how (?=wide|high))?(?:in |the |its |along )*(?P<axis>{'|'.join(_ACROSS)})"
-    rf"(?: direction| too| as well)?(?::.*)?{_END}",
+    rf"(?: direction)?{_END}",
     re.I,
 )
 
@@ -163,7 +166,7 @@ _MOST_WORDS = 4
 _OBJECT = re.compile(
     r"\b(?P<before>over|above|below|under|in|within|inside|outside|to|of|near|past|beyond|than|"
     r"exceed(?:ing|ed)?|reach(?:ing|ed)?|break(?:ing)?|pass(?:ed|ing)?|at|from) "
-    r"(?P<pronoun>it|that|this)\b(?! \w+s\b)",
+    r"(?P<pronoun>it\b(?! \w+s\b)|(?:that|this)\b(?! \w))",
     re.I,
 )
 _CALLED = {
@@ -191,12 +194,16 @@ def rewritten(question: str, before: str, meant: Meaning | None, noun: str) -> I
     """
     question = question.strip()
     for text in (
+        _claimed(question, before),
+        _which_then(question, meant),
+        _about_the_pad(question, meant),
         *_about_place(question, before, meant),
+        _with_another_side(question, before),
         *_about_the_band(question, meant),
+        _needed(question, meant),
         _with_another_number(question, before),
         *_with_another_supposition(question, before),
         _under_supposition(question, before),
-        _with_another_side(question, before),
         _with_another_axis(question, before),
         _of_named_class(question, meant),
         _of_a_mass(question, before, meant),
@@ -210,17 +217,17 @@ def rewritten(question: str, before: str, meant: Meaning | None, noun: str) -> I
 
 def _about_place(question: str, before: str, meant: Meaning | None) -> Iterator[str]:
     """A short question about edges, ways and bounds, by what was asked before."""
-    if isinstance(meant, Check) and "cut" in meant.condition and _WHICH_EDGE.fullmatch(question):
-        yield "Which edge cuts it?"
     side = _ANOTHER_SIDE.fullmatch(question)
-    is_cut = isinstance(meant, Check) and "cut" in meant.condition
-    is_cut = is_cut or (isinstance(meant, Which) and meant.name == "cut_sides")
+    condition = truth_of(meant) if isinstance(meant, Check | Calculated | Which) else ""
+    is_cut = bool(re.search(r"\bcut", condition))
     if side and is_cut:
         yield f"Is it cut on the {_PAD_SIDES.get(side['side'].lower(), side['side'])} side?"
-    if is_cut and isinstance(meant, Check) and _OTHER_SIDE.fullmatch(question):
-        told = next((side for side in _OPPOSITE if meant.condition.endswith(f"cut_{side}")), "")
+    if is_cut and _OTHER_SIDE.fullmatch(question):
+        told = next((side for side in _OPPOSITE if condition.endswith(f"cut_{side}")), "")
         if told:
             yield f"Is it cut on the {_OPPOSITE[told]} side?"
+    if is_cut and _WHICH_EDGE.fullmatch(question):
+        yield "Which edge cuts it?"
     if is_cut and _HOW_MANY_SIDES.fullmatch(question):
         yield "How many sides of the pad cut it?"
     if found := _BY_HOW_MUCH_TO.fullmatch(question):
@@ -234,11 +241,111 @@ _PAD_SIDES = {"palm": "top", "upper": "top", "fingertip": "bottom", "lower": "bo
 """Sides of the pad by other names."""
 
 
+def _claimed(question: str, before: str) -> str:
+    """'Am I right?' behind a guess, as a question of what was guessed."""
+    claim = _GUESS.fullmatch(before.strip())
+    if claim is None or _AM_I_RIGHT.fullmatch(question) is None:
+        return ""
+    return f"Is it {claim['what']}?"
+
+
+_GUESS = re.compile(
+    r"(?:(?:so|well|hm+|ok)[, ]+)*(?:my (?:guess|bet|money) is(?: on)?|"
+    r"i(?:['’]d)? (?:would )?(?:guess|think|say|bet|believe|suppose|reckon)(?: that)?|"
+    r"(?:it|this|that) (?:feels|looks) like)"
+    r"(?: (?:it|that|this)(?:['’]s| is))? (?P<what>[^?.!]+?)[.! ]*",
+    re.I,
+)
+_AM_I_RIGHT = re.compile(
+    r"(?:and[, ]+)?(?:am i|was i|is (?:that|it|this)) (?:right|correct|true|so)[?.! ]*|"
+    r"(?:right|correct|true)[?.! ]*|(?:do|would) you agree[?.! ]*",
+    re.I,
+)
+
+
+_WHICH_THEN = re.compile(
+    r"(?:(?:and|so|but|then|ok|no)[, ]+)*(?:what (?:would|do|will) you (?:call|name) it|"
+    r"how would you (?:describe|call|class|name) it|(?:what|which(?: one)?|how) is it|"
+    r"what(?: else)?|what sort|which(?: one)?)(?: then| instead| really| exactly)*"
+    r"(?P<word>[, ]+in (?:one|a|a single) word)?[?.! ]*",
+    re.I,
+)
+
+
+def _which_then(question: str, meant: Meaning | None) -> str:
+    """The word for what was asked about with a yes or no: 'what would you call it?'."""
+    shown = meant.shows if isinstance(meant, Check) else ()
+    names = {"shape": "shape", "texture": "texture", "depth_word": "depth", "area_word": "area",
+             "position": "position"}  # fmt: skip
+    name = names.get(shown[0], "") if len(shown) == 1 else ""
+    if isinstance(meant, Calculated) and meant.unit is None:
+        told = names_of(meant)
+        name = told[0] if len(told) == 1 and told[0] in ("shape", "texture") else ""
+    if not name or _WHICH_THEN.fullmatch(question) is None:
+        return ""
+    if name in ("depth", "area"):
+        return f"What is the {name} in one word?"
+    return f"What is the {name}?"
+
+
+_OF_PAD = re.compile(r"\b(?:its|the|(?P<bare>total|whole|full))(?P<size> (?:(?:whole|total|full|"
+                     r"entire) )?(?:width|height|area|size)| area)\b", re.I)  # fmt: skip
+
+
+def _about_the_pad(question: str, meant: Meaning | None) -> str:
+    """A question about the pad's size, where that was asked for before."""
+    names = names_of(meant) if isinstance(meant, Calculated) else ()
+    if not names or not set(names) <= {"pad_width_mm", "pad_height_mm"}:
+        return ""
+    words = without_lead(question)
+    if re.fullmatch(r"how (?:high|wide|tall|broad)[?.! ]*", words, re.I):
+        return f"{words.rstrip('?.! ')} is the pad?"
+    return _OF_PAD.sub(
+        lambda each: f"the pad's{' total' if each['bare'] else ''}{each['size']}", words, count=1
+    )
+
+
 def _about_the_band(question: str, meant: Meaning | None) -> Iterator[str]:
     """A short question about the band that was asked for before."""
+    if meant is None or "band_" not in truth_of(meant):
+        return
     parts = meant.parts if isinstance(meant, Several) else (meant,)
     if all(isinstance(each, Amount) and each.quantity.startswith("band_") for each in parts):
         yield from (text for words, text in _BAND_WORD.items() if words.fullmatch(question))
+    own = _OWN_END.sub(r"the \g<which> end of the band", without_lead(question))
+    yield own
+    yield _ARE_WE.sub("Is the force", own)
+    if _IN.search(question):
+        yield _IN.sub("in the band", without_lead(question))
+
+
+_OWN_END = re.compile(
+    r"\b(?:the|its|that|this) (?P<which>upper|lower|top|bottom)(?: (?:end|edge|bound|limit|one)\b"
+    r"(?! of)|(?= or )|(?=[?.! ]*$))",
+    re.I,
+)
+_ARE_WE = re.compile(r"^(?:am i|are we)\b", re.I)
+_IN = re.compile(r"(?<=\w )(?:in|inside|within)(?: (?:it|that|there))?(?=[?.! ]*$)", re.I)
+"""'Am I in?', after a band."""
+
+
+_NEEDED = re.compile(
+    r"(?:and |so |but )*(?:(?:with )?how (?:much|many newtons)|what|which)"
+    r"(?: (?:of )?(?:grip|force))* (?:(?:does|do|would) (?:it|that|the \w+|we|i) "
+    r"(?:need|take|require)|is needed|is required|"
+    r"would (?:just )?do|(?:would )?(?:surely|safely|just) holds?(?: it| that)?)"
+    r"(?: (?:to|for) (?:hold|that|it|this)(?: it)?)?(?: (?:for sure|surely|safely|then))*[?.! ]*",
+    re.I,
+)
+
+
+def _needed(question: str, meant: Meaning | None) -> str:
+    """What force the mass needs that was asked about before."""
+    truth = "" if meant is None else truth_of(meant)
+    is_of_mass = "mass_g" in truth or "gram_n" in truth
+    return (
+        "How much force is needed for its mass?" if is_of_mass and _NEEDED.match(question) else ""
+    )
 
 
 def _with_another_axis(question: str, before: str) -> str:
@@ -338,6 +445,8 @@ def _with_another_supposition(question: str, before: str) -> Iterator[str]:
 def _under_supposition(question: str, before: str) -> str:
     """A follow-up about what was supposed before."""
     supposed = _supposed(before)
+    if _CHANGED.search(question):
+        return ""
     if supposed is None or _ANOTHER_IF.match(question) or not _UNDER_IT.search(question):
         return ""
     asked = re.sub(rf"^{_LEAD}", "", _THEN.sub("", question), flags=re.I)

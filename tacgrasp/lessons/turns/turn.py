@@ -22,6 +22,7 @@ from tacgrasp.lessons.turns.follow_ups import (
     in_another_unit,
     leaves_unit_out,
     of_advice,
+    of_another_mass,
     of_supposed_force,
     reason_of,
     with_quantity_of,
@@ -72,6 +73,7 @@ class Turn:
         text: The question as it stands alone, for the next one to follow; '' before the first.
         about: What was last asked for, a word, number or condition; None before the first.
         number: The number that was last asked for; None before the first.
+        numbered: The question that asked for it, as it stands alone; ''.
         earlier: The number before that; None likewise.
         noun: What a pronoun may stand for: 'the limit', where that was asked for; ''.
         told: What the question tells besides: a mass, a band or a limit; None where it tells none.
@@ -81,6 +83,7 @@ class Turn:
     text: str = ""
     about: Meaning | None = None
     number: Meaning | None = None
+    numbered: str = ""
     earlier: Meaning | None = None
     noun: str = ""
     told: Told | None = None
@@ -97,10 +100,10 @@ class Turn:
             return replace(self, read=read, text=self.text or text, told=None)
         about = self.about if isinstance(read.meaning, Why | Description) else read.meaning
         noun = noun_of(read.meaning) or ("" if is_whole else self.noun)
-        number, earlier = self.number, self.earlier
-        if kind_of(read.meaning) is AnswerKind.NUMBER and read.meaning != number:
-            number, earlier = read.meaning, number
-        return Turn(read=read, text=text, about=about, number=number, earlier=earlier, noun=noun)
+        turn = replace(self, read=read, text=text, about=about, noun=noun, told=None)
+        if kind_of(read.meaning) is not AnswerKind.NUMBER or read.meaning == self.number:
+            return turn
+        return replace(turn, number=read.meaning, numbered=text, earlier=self.number)
 
 
 def next_turn(writer: QueryWriter, question: str, before: Turn) -> Turn:
@@ -119,7 +122,12 @@ def next_turn(writer: QueryWriter, question: str, before: Turn) -> Turn:
         return telling
     if not before.text:
         return before.then(question, understood(writer, question))
-    for text in rewritten(question, before.text, before.about, before.noun):
+    if heavier := of_another_mass(question, before.about):
+        return before.then(before.text, _read_so(heavier))
+    for text in (
+        *rewritten(question, before.text, before.about, before.noun),
+        *rewritten(question, before.numbered, before.number, ""),
+    ):
         if (telling := _telling(text, before)) is not None:
             return telling
         read = understood_by_grammar(text)
@@ -157,7 +165,9 @@ def _by_meaning(question: str, before: Turn, about: Meaning) -> ReadQuestion | N
         return understood_by_grammar(named)
     elif unit := in_another_unit(question, about):
         meaning = unit
-    elif by_number := of_number(question, before.number, before.earlier):
+    elif kind_of(about) in (AnswerKind.NUMBER, AnswerKind.YES_NO) and (
+        by_number := of_number(question, before.number, before.earlier)
+    ):
         meaning = by_number
     elif by_advice := of_advice(question, about):
         meaning = by_advice
@@ -169,8 +179,11 @@ def _by_meaning(question: str, before: Turn, about: Meaning) -> ReadQuestion | N
         and (read := understood_by_grammar(of_force))
     ):
         meaning = of_supposed_force(read.meaning, about)
-    if meaning is None:
-        return None
+    return None if meaning is None else _read_so(meaning)
+
+
+def _read_so(meaning: Meaning) -> ReadQuestion:
+    """A follow-up whose meaning was worked out."""
     return ReadQuestion(query_of(meaning), meaning, CALCULATED_CONFIDENCE)
 
 

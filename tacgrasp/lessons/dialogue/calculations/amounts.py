@@ -46,6 +46,12 @@ _WEIGHS = re.compile(
     r"weigh|(?:with )?(?:how much|what|"
     r"how many [a-z]+)(?: force)? "
     r"(?:does|do) gravity pull (?:on |at )?(?:(?:the|that|this) )?[a-z]+(?: with| down| at)*|"
+    r"(?:with )?(?:how much|what|how many [a-z]+)(?: force)? (?:does|do|is) gravity "
+    r"(?:pull|pulling|tug|act) (?:with )?(?:on|at) (?:(?:the|that|this) )?[a-z]+"
+    r"(?: with| down| at)*|"
+    r"(?:(?:how much|what|which|specify|state|give) )?(?:(?:is|does|would) )?(?:the )?"
+    r"(?:gravitational|gravity) (?:load|force|pull)(?: (?:acts|act|acting|is|works|on|of|at))*"
+    r"(?: (?:the|that|this|declared|told|held|given))* [a-z]+(?: (?:have|feel|exert))?|"
     r"gravity (?:pulls|acts|tugs) (?:on|at) (?:(?:the|that|this) )?(?:lifted |held |"
     r"gripped )?[a-z]+ "
     r"with (?:how much|what|how many [a-z]+)"
@@ -95,8 +101,8 @@ def calculated_amount(asked: AskedWords) -> Calculated | None:
     readers: tuple[Callable[[AskedWords], Term | None], ...] = (
         to_border, pressure, stiffness, circle, free_area, volume, as_many_as, on_scale,
         safety_factor, needed, load, unused, share, ratio, missing, signed_offset, error, apart,
-        taken, from_point, whole_share, into_band, before_leaving, _counted, _weight, _stood_at,
-        _alone,
+        taken, from_point, whole_share, into_band, before_leaving, _counted, _pulls_down, _weight,
+        _stood_at, _alone,
     )  # fmt: skip
     for reader in readers:
         if (term := reader(asked)) and (amount := amount_of(term, asked)):
@@ -146,6 +152,21 @@ def _weight(asked: AskedWords) -> Term | None:
     if force is None or force.dimension != "force":
         return None
     return Term(expression=f"{force.factor} / {GRAVITY_N_PER_G:g}", dimension="mass", words="")
+
+
+_PULLS_DOWN = re.compile(
+    r"(?:with )?(?:what|how much|how many [a-z]+)(?: force)? (?:does|would|will|do) (?P<a>.+?) "
+    r"(?:pull|tug|hang|weigh|press|drag)(?: down| downwards?| with| at)*"
+)
+
+
+def _pulls_down(asked: AskedWords) -> Term | None:
+    """The weight of a named mass: 'what does a 200 g pear pull down with'."""
+    found = _PULLS_DOWN.fullmatch(asked.words)
+    mass = asked.term(found["a"]) if found else None
+    if mass is None or mass.dimension != "mass" or mass.expression == "holds_g":
+        return None
+    return in_newtons(mass)
 
 
 def _counted(asked: AskedWords) -> Term | None:

@@ -96,8 +96,21 @@ _VERB = re.compile(
     rf"(?:is|are|does|do|has|have|will|would) |(?=(?:(?:the )?contact(?: center| middle)? )?"
     rf"(?:{AGAINST}) )"
 )
+_WHOLE_PAD = (
+    rf"(?:(?:the|your|this|our|its|whole|entire|full) )*(?:(?:sensing|gel|sensor|tactile|touch) )*"
+    rf"{_PAD}(?: surface| itself)?"
+)
 _PAD_IS = re.compile(
-    rf"how (?:(?P<wide>wide|broad)|high|tall) is (?:(?:the|your|this|our) )?{_PAD}"
+    rf"(?:how (?:(?P<wide>wide|broad)|high|tall) is {_WHOLE_PAD}|"
+    r"(?:what is )?(?:(?:the|total|full|whole) )*(?:(?P<width>width|breadth)|height) of "
+    rf"{_WHOLE_PAD}|"
+    rf"(?:what is )?{_WHOLE_PAD}(?:'s)? (?:(?P<w>width|breadth)|height))"
+)
+_PAD_AREA = re.compile(
+    rf"(?:what|how (?:large|big|much)) (?:area )?(?:is|has|does) {_WHOLE_PAD}(?: have| in total)?|"
+    rf"(?:what is )?(?:(?:the|total|full|whole|entire) )*(?:sensing )?area of {_WHOLE_PAD}|"
+    rf"(?:what is )?(?:(?:the|total|full|whole|entire) )+(?:gel|pad|sensor|sensing)(?:'s)? area"
+    rf"(?: of {_WHOLE_PAD})?|(?:what is )?{_WHOLE_PAD}(?:'s)? (?:(?:total|whole|full|entire) )+area"
 )
 _ORIGIN = re.compile(
     r"\b(?:origin|zero point|coordinates?|coordinate system|image convention|counting from|"
@@ -132,8 +145,11 @@ _OF_WHICH = (
 def to_border(asked: AskedWords) -> Term | None:
     """The distance of the contact's middle from a border, or the pad's width or height."""
     if found := _PAD_IS.fullmatch(asked.words):
-        size = "pad_width_mm" if found["wide"] else "pad_height_mm"
+        is_wide = found["wide"] or found["width"] or found["w"]
+        size = "pad_width_mm" if is_wide else "pad_height_mm"
         return Term(expression=size, dimension="length", words="")
+    if _PAD_AREA.fullmatch(asked.words):
+        return Term(expression="pad_width_mm * pad_height_mm", dimension="area", words="")
     words = _PAD_SIZE.sub("", asked.words)
     if expression := _from_corner(words):
         return _length(expression)

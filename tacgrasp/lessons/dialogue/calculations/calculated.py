@@ -8,7 +8,7 @@ from tacgrasp.lessons.dialogue.calculations.borders import border_check, nearest
 from tacgrasp.lessons.dialogue.calculations.checks import calculated_check
 from tacgrasp.lessons.dialogue.calculations.choices import calculated_choice
 from tacgrasp.lessons.dialogue.calculations.footprints import pressure_check
-from tacgrasp.lessons.dialogue.calculations.loads import needs_more
+from tacgrasp.lessons.dialogue.calculations.loads import needs_more, suffices
 from tacgrasp.lessons.dialogue.calculations.suppositions import supposed, supposes
 from tacgrasp.lessons.dialogue.calculations.terms import Term
 from tacgrasp.lessons.dialogue.expression import Expression
@@ -29,7 +29,7 @@ def _calculated(asked: AskedWords) -> Calculated | None:
     if (meaning := supposed(asked)) or supposes(asked):
         return meaning if meaning and _is_sound(meaning.truth) else None
     for reader in (
-        needs_more, nearest_border, calculated_choice, calculated_amount, border_check,
+        needs_more, suffices, nearest_border, calculated_choice, calculated_amount, border_check,
         pressure_check, calculated_check,
     ):  # fmt: skip
         if (meaning := reader(asked)) and _is_sound(meaning.truth):

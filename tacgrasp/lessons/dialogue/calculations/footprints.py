@@ -50,7 +50,8 @@ _PRESSURE = re.compile(
     r"(?:divide|dividing|spread|spreading|distribute|distributing)\b.*\b(?:force|push|squeeze))\b"
 )
 _PER_SQUARE = re.compile(
-    r"\b(?:how much|newtons?) .*\b(?:on|for|over|per) (?:each|every|an?|one) (?:square|sq) "
+    r"\b(?:how much|newtons?) (?:.*\b(?:on|for|over|load|loads|per) (?:each|every|an?|one)|per) "
+    r"(?:square|sq) "
     r"(?:(?P<mm>mm|millimet(?:re|er))|cm|centimet(?:re|er))\b"
 )
 _AREA_OR_PRESSURE = re.compile(r"\b(?:area|patch|footprint|pressure|stress)\b")
@@ -125,6 +126,9 @@ def volume(asked: AskedWords) -> Term | None:
     return Term(expression="area_mm2 * depth_mm", dimension="volume", words="")
 
 
+_SUPPOSES = re.compile(r"\b(?:if|suppose|doubl\w+|halv\w+|half|twice|tripl\w+|times)\b")
+"""What makes another pressure of the force or the area that is felt."""
+
 _AGAINST_PRESSURE = re.compile(rf"\b(?:{AGAINST}) (?P<by>#\d+ (?:{UNIT}))(?= |$)")
 _BESIDE_PRESSURE = re.compile(r"\b(?:pressure|push\w*|press\w*|force|squeez\w*|load|stress)\b")
 
@@ -134,7 +138,7 @@ def pressure(asked: AskedWords) -> Term | None:
     unit = UNITS.get(asked.unit)
     is_asked = unit is not None and unit.dimension == "pressure"
     words = re.sub(r" ?on average$", "", asked.words)
-    if asked.numbers or _ELSEWHERE.search(words):
+    if asked.numbers or _ELSEWHERE.search(words) or _SUPPOSES.search(words):
         return None
     if not is_asked and (found := _PER_SQUARE.search(words)):
         per = "N/mm²" if found["mm"] else "N/cm²"

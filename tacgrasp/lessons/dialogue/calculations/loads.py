@@ -257,6 +257,23 @@ _STAYS = re.compile(
     r"slipping|dropped|lost)|(?:hold|held|stay|stick|remain|hold it|stay put))"
     r"(?: (?:it|up|out|away|down|off|then|now|still|in place|put))*"
 )
+_SUFFICES = re.compile(
+    r"(?:would|will|is|are|does|do|can|could) (?:a |the )?(?:grip of |force of )?(?P<force>.+?) "
+    r"(?:(?:be |really )?(?P<enough>enough|sufficient)|suffice|do)"
+    rf"(?: (?:to|for)(?: (?:us|me|you))?(?: {_SURE})?(?: {_HOLD})?(?: {_SURE})?(?: up)? ?"
+    rf"(?:it|this|that|them|(?:the |this |that )?{THING})(?: {_SURE}| for sure)?)"
+)
+
+
+def suffices(asked: AskedWords) -> Calculated | None:
+    """Whether a named force surely holds the object; None of other questions."""
+    found = _SUFFICES.fullmatch(asked.words)
+    force = asked.term(found["force"]) if found else None
+    if force is None or force.dimension != "force" or force.expression == "force_n":
+        return None
+    return Calculated(truth=f"{force.expression} >= gram_n * mass_g", unit=None)
+
+
 _ALLOWED = re.compile(
     r"\b(?:(?:the force|what) )?(?:that )?(?:we|you|i|it|the gripper) (?:(?:is|are|am) (?:allowed|"
     r"permitted)(?: to)?|may|can) (?:press|use|apply|exert|squeeze)(?: with| at most)?$"

@@ -77,7 +77,9 @@ _ADVICE = re.compile(
     r"next (?:step|move|action)|want me to|tell(?:ing)? me to|have me)\b"
 )
 _ASKS_YES = re.compile(rf"{AUXILIARY}(?:n['’]?t)?\b")
-_DENIED = re.compile(r"\b(?:not|n['’]t|never|isn['’]?t|don['’]?t|doesn['’]?t|against)\b")
+_DENIED = re.compile(
+    r"\b(?:not|n['’]t|never|isn['’]?t|don['’]?t|doesn['’]?t|against|other than|anything but|but)\b"
+)
 _IN_QUESTION = re.compile(rf"^{AUXILIARY}n['’]?t\b")
 _ELSE = r"(?:something (?:else|different|other)|neither(?: of them)?|other|another (?:one|step))"
 _CHOICE = re.compile(

@@ -16,7 +16,13 @@ from tacgrasp.lessons.dialogue.quantities import GRAVITY_N_PER_G, UNITS
 from tacgrasp.lessons.dialogue.scene import NAMES, AskedScene
 from tacgrasp.lessons.dialogue.scoring.answer_reading import AnswerReading, Measured, read_answer
 from tacgrasp.lessons.dialogue.scoring.question_file import UNDECIDABLE, QuestionRow
-from tacgrasp.lessons.dialogue.scoring.truth_units import dimension_of, is_count, scale_of
+from tacgrasp.lessons.dialogue.scoring.tolerances import EXACT
+from tacgrasp.lessons.dialogue.scoring.truth_units import (
+    dimension_of,
+    is_count,
+    is_multiple_in,
+    scale_of,
+)
 
 _WEIGHTS = tuple(UNITS[name].size for name in ("kgf", "lbf", "ozf"))
 """Sizes of the units of force that are named after a mass."""
@@ -119,6 +125,8 @@ def _is_right(
         return reading.is_yes == bool(truths[0].value)
     if row.kind is AnswerKind.NUMBER:
         truth = row.truths[0]
+        if not truth.names:  # a number that the question itself tells
+            return _is_told(reading, row, truths[0])
         wanted = "" if is_count(truth) and _is_bare(reading) else dimension_of(truth)
         measured = _converted(reading.numbers, wanted or "ratio", scene)
         is_alone = len(measured) == len(reading.numbers) and bool(measured)
@@ -126,6 +134,15 @@ def _is_right(
         is_one = is_alone and max(values) - min(values) <= 1e-6 + 1e-3 * abs(values[0])
         return is_one and _is_near(measured[0], row, truth, truths[0])
     return _has_all(reading, row, truths, scene)
+
+
+def _is_told(reading: AnswerReading, row: QuestionRow, truth: TruthValue) -> bool:
+    """Whether the only number of an answer is a constant truth, in the unit that is said."""
+    if len(reading.numbers) != 1:
+        return False
+    said, true = reading.numbers[0], float(truth.value or 0.0)
+    tolerance = (row.tolerance or EXACT).of(true)
+    return any(abs(value - true) <= tolerance for value in (said.value, said.value / said.size))
 
 
 def _has_all(
@@ -163,7 +180,12 @@ def _is_near(said: Measured, row: QuestionRow, expression: Expression, truth: Tr
     scale = scale if math.isclose(said.size * scale, 1.0, rel_tol=1e-6) else 1.0
     true = float(truth.value or 0.0)
     tolerance = row.tolerance or row.usual_tolerance(expression).times(scale)
-    return abs(said.value * scale - true) <= tolerance.of(true) + 1e-9
+    if abs(said.value * scale - true) <= tolerance.of(true) + 1e-9:
+        return True
+    # 500 * depth_mm is half of it in microns
+    return is_multiple_in(expression, said.size) and (
+        abs(said.value / said.size - true) <= (row.tolerance or EXACT).of(true) + 1e-9
+    )
 
 
 def _converted(

@@ -12,6 +12,9 @@ from tacgrasp.lessons.dialogue.expression import Expression
 from tacgrasp.lessons.dialogue.quantities import GRAVITY_N_PER_G, UNITS, unit_of_name
 
 _FORCES = ("force_n", "limit_n", "band_low_n", "band_high_n")
+MOST_MULTIPLE = 20.0
+"""Largest multiple of a quantity that a truth states in another unit. Our choice."""
+
 _OVER_GRAM = re.compile(r"/ *gram_n\b")
 
 
@@ -71,6 +74,18 @@ def scale_of(truth: Expression) -> float:
         return 1.0
     power = 10.0 ** round(math.log10(in_own))
     return power if math.isclose(in_own, power, rel_tol=0.01) else 1.0
+
+
+def is_multiple_in(truth: Expression, size: float) -> bool:
+    """Whether a truth may be a multiple of its quantity in a unit: half the depth in microns.
+
+    Args:
+        truth: The truth, such as ``500 * depth_mm``.
+        size: Size of the unit.
+    """
+    if dimension_of(truth) in ("", "fraction", "ratio") or _stated_scale(truth) is not None:
+        return False
+    return MOST_MULTIPLE**-1 <= abs(_factor(truth)) * size <= MOST_MULTIPLE
 
 
 def _stated_scale(truth: Expression) -> float | None:

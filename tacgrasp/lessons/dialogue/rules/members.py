@@ -1,0 +1,46 @@
+"""Questions whether the shape, the texture, the depth or the area is one of some named classes.
+
+    Is the shape one of edge, corner or line?           shape in ['edge', 'corner', 'line']
+    Has it been classified as a sphere or a cylinder?   shape in ['sphere', 'cylinder']
+    Anything bumpy or rough about it?                   texture in ['bumpy', 'rough']
+
+Not here: alternatives, whose answer is one of them (``tacgrasp.lessons.dialogue.choices``).
+"""
+
+from __future__ import annotations
+
+import re
+
+from cltp.tactile.states import CLASSES
+from tacgrasp.lessons.dialogue.meaning import Calculated
+from tacgrasp.lessons.dialogue.plainer import AUXILIARY
+
+_ONE_OF = re.compile(
+    r"\b(?:one|any|either|some) (?:of|from|among) (?:these|those|the|them|this)?\b|\bone of\b|"
+    r"\bamong\b|\b(?:classified|categori[sz]ed|labelled|labeled|recogni[sz]ed|registered) as\b|"
+    r"\b(?:belong|belongs|fall|falls|count|counts|qualif\w+) (?:to|into|in|as|among)\b|\banything\b"
+)
+_CHOOSES = re.compile(
+    r"\b(?:which|what|pick|choose|name|say|tell|neither|none|something else|other|not|if|than)\b"
+)
+_ASKS_YES = re.compile(
+    rf"(?:(?:and|so|please) )?(?:{AUXILIARY}|anything|confirm|verify|check|true or false)\b"
+)
+_NUMBER = re.compile(r"\d")
+
+
+def member_of(question: str) -> Calculated | None:
+    """Whether what is felt is one of the named classes; None of any other question."""
+    words = " ".join(re.findall(r"[a-z]+(?:-[a-z]+)?|\d+", question.lower()))
+    if not _ASKS_YES.match(words) or not _ONE_OF.search(words):
+        return None
+    if _CHOOSES.search(words) or _NUMBER.search(words) or " or " not in f" {words} ":
+        return None
+    for name in ("shape", "texture"):
+        named = [each for each in CLASSES[name] if re.search(rf"\b{each}s?\b", words)]
+        if len(named) >= 2:
+            others = [n for n in ("shape", "texture") if n != name]
+            if any(re.search(rf"\b{each}\b", words) for n in others for each in CLASSES[n]):
+                return None
+            return Calculated(truth=f"{name} in [{', '.join(map(repr, named))}]", unit=None)
+    return None
