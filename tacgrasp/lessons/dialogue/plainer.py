@@ -183,7 +183,8 @@ _NUMERO = re.compile(r"\b(serial|phone|part|item|order|batch|lot|model) no\.", r
 
 _CONVERT = re.compile(
     r"^(?:please )?(?:convert|express|translate|turn) (?P<what>(?:the |its |our )?[a-z ]+?) "
-    r"(?:to|into|in|as) (?P<unit>[a-zµ²]+)(?=[?.! ]*$)",
+    r"(?:to|into|in|as) (?P<unit>[cmk]?n|[cmµ]?m|(?:milli|centi|kilo)?newtons?|microns?|inch(?:es)?|"
+    r"(?:milli|centi|micro)met(?:re|er)s?|k?g|(?:kilo)?grams?|ounces?|pounds?|percent)(?=[?.! ]*$)",
     re.I,
 )
 _ITS_TOPIC = re.compile(

@@ -126,7 +126,7 @@ def volume(asked: AskedWords) -> Term | None:
     return Term(expression="area_mm2 * depth_mm", dimension="volume", words="")
 
 
-_SUPPOSES = re.compile(r"\b(?:if|suppose|doubl\w+|halv\w+|half|twice|tripl\w+|times)\b")
+_SUPPOSES = re.compile(r"\b(?:doubl\w+|halv\w+|half|twice|tripl\w+|times)\b")
 """What makes another pressure of the force or the area that is felt."""
 
 _AGAINST_PRESSURE = re.compile(rf"\b(?:{AGAINST}) (?P<by>#\d+ (?:{UNIT}))(?= |$)")

@@ -16,7 +16,7 @@ from tacgrasp.lessons.dialogue.meaning import Calculated
 from tacgrasp.lessons.dialogue.plainer import AUXILIARY
 
 _ONE_OF = re.compile(
-    r"\b(?:one|any|either|some) (?:of|from|among) (?:these|those|the|them|this)?\b|\bone of\b|"
+    r"\b(?:one|either|some) (?:of|from|among) (?:these|those|the|them|this)?\b|\bone of\b|"
     r"\bamong\b|\b(?:classified|categori[sz]ed|labelled|labeled|recogni[sz]ed|registered) as\b|"
     r"\b(?:belong|belongs|fall|falls|count|counts|qualif\w+) (?:to|into|in|as|among)\b|\banything\b"
 )

@@ -13,6 +13,8 @@ from tacgrasp.lessons.turns.turn import Turn, next_turn
 from tacgrasp.lessons.understanding import understood_by_grammar
 from tests.fakes.question_scenes import HELD
 
+MOVED = "calculate action in ['move_up', 'move_down', 'move_left', 'move_right']."
+
 
 class Refusing:
     """A model that must not be asked."""
@@ -107,6 +109,87 @@ def test_several_follow_ups_in_a_row_lose_nothing(questions, query):
     assert last_turn(*questions).read.query == query
 
 
+@pytest.mark.parametrize(
+    ("questions", "query"),
+    [
+        # the number before
+        (("What is the limit?", "Is that more than 2 N?"), "calculate limit_n > 2."),
+        (
+            ("How deep, in microns?", "What would half of that be?"),
+            "calculate 0.5 * depth_mm in µm.",
+        ),
+        (
+            ("What is the force?", "And with 10 % more?"),
+            "calculate (1 + 10 / 100) * force_n in N.",
+        ),
+        (
+            ("What is the force?", "twice as hard would be?", "Triple?"),
+            "calculate 3 * force_n in N.",
+        ),
+        (("What is x in mm?", "and y?", "sum of both?"), "calculate x_mm + y_mm in mm."),
+        (
+            ("What is the middle of the band?", "How far are we from that?"),
+            "amount off_middle N.",
+        ),
+        (
+            ("What is the force in grams?", "More than 100?"),
+            "calculate force_n > 0.00980665 * 100.",
+        ),
+        (
+            ("How much force is needed for 60 g?", "Do we have that much?"),
+            "calculate force_n >= (gram_n * 60).",
+        ),
+        # sides, axes and classes
+        (("Does it run off the pad anywhere?", "On the left?"), "check cut left."),
+        (
+            ("Does it run off the pad anywhere?", "On the left?", "The other side?"),
+            "check cut right.",
+        ),
+        (("Does it run off the pad anywhere?", "up at the palm end?"), "check cut top."),
+        (
+            ("Does it run off the pad anywhere?", "So how many sides altogether?"),
+            "calculate cut_left + cut_right + cut_top + cut_bottom in 1.",
+        ),
+        (("How many mm is it off sideways?", "And vertically?"), "amount offset_y mm."),
+        (("Is the area at least large?", "How about medium or bigger?"), "check area >= medium."),
+        (("Is the surface ridged?", "What would you call it?"), "word texture."),
+        # the band
+        (("Where does the band start?", "And where does it end?"), "amount band_high N."),
+        (("What is the lower end of the band?", "So how wide is it?"), "amount band_width N."),
+        (("What is the lower end of the band?", "its midpoint?"), "amount band_middle N."),
+        # masses
+        (("Will it slip at 30 g?", "and a full hundred?"), "check slips #1 g."),
+        (
+            ("How much does it weigh?", "What is that in newtons?"),
+            "calculate (mass_g) * 0.00980665 in N.",
+        ),
+        (
+            ("Will it slip at this weight?", "And if it were twice as heavy?"),
+            "calculate force_n < 0.0205 * (2 * mass_g).",
+        ),
+        # the pad, guesses, advice
+        (("How wide is the pad?", "And its height?"), "calculate pad_height_mm in mm."),
+        (("My guess is a sphere.", "Am I right?"), "check shape sphere."),
+        (("What next?", "Is that a move of some sort?"), MOVED),
+        (("What next?", "So your advice isn't to lift?"), "calculate not (action == 'lift')."),
+        # 'and' before a whole question
+        (("What shape is it?", "And how does its surface feel?"), "word texture."),
+    ],
+)
+def test_a_follow_up_points_at_what_was_asked_before(questions, query, monkeypatch):
+    monkeypatch.setattr(turns, "understood", lambda writer, text: understood_by_grammar(text))
+    assert last_turn(*questions).read.query == query
+
+
+@pytest.mark.parametrize(
+    "question",
+    ["How deep is it?", "Is it a sphere?", "Is it safe to lift?", "Is it over 2 mm deep?"],
+)
+def test_a_number_before_does_not_change_what_stands_alone(question):
+    alone = understood_by_grammar(question).query
+    assert last_turn("What is the limit?", question).read.query == alone
+
+
 def test_a_supposed_force_is_told_in_the_answer():
     text = answers("What if I add 0.9 N?", "Is that over the limit?")
     assert text == "Yes, the force would be 1.73 N, the limit is 1.30 N."
@@ -128,6 +211,10 @@ def test_a_question_that_stands_alone_follows_nothing():
         ("it weighs 0.05 kg", "the object weighs 50 g", None),
         ("The limit is 900 mN.", "the limit is 0.9 N", None),
         ("The band is 1 to 2 N.", "the force band is 1 to 2 N", None),
+        ("New limit from the boss: 2.5 N.", "the limit is 2.5 N", None),
+        ("Sorry, I mean the limit is 2.5 N.", "the limit is 2.5 N", None),
+        ("It's an egg, so the limit is 1.5 N.", "the limit is 1.5 N", None),
+        ("There's an egg in it, I don't want more than 1.2 N on it.", "the limit is 1.2 N", None),
         (
             "If the band is 1 to 2 N, is it safe to lift?",
             "the force band is 1 to 2 N",
@@ -140,6 +227,15 @@ def test_what_is_told_is_kept_beside_what_is_asked(question, told, query):
     assert turn.told is not None
     assert turn.told.text == told
     assert (turn.read.query if turn.read else None) == query
+
+
+def test_a_correction_is_of_what_was_told_last():
+    told = last_turn("The band is 1 to 2 N.", "make it 0.5 to 1.5 N instead").told
+    assert told.text == "the force band is 0.5 to 1.5 N"
+    assert last_turn("The limit is 2 N.", "Make that 900 mN.").told.text == "the limit is 0.9 N"
+    assert (
+        last_turn("The object weighs 40 g.", "I meant 60 g").told.text == "the object weighs 60 g"
+    )
 
 
 @pytest.mark.parametrize("question", ["The limit is 900 mm.", "Is the object 50 g?", "It is deep."])
