@@ -56,7 +56,7 @@ from tacgrasp.lessons.dialogue.query import (
     query_of,
     read_query,
 )
-from tacgrasp.lessons.dialogue.rules.advised import advised
+from tacgrasp.lessons.dialogue.rules.advised import advised, step_asked
 from tacgrasp.lessons.dialogue.rules.friction import frictional
 from tacgrasp.lessons.dialogue.rules.members import member_of
 from tacgrasp.lessons.dialogue.rules.regions import of_region
@@ -164,7 +164,7 @@ def understood_by_grammar(question: str, before: str = "") -> ReadQuestion | Non
     if is_denied and (affirmed := understood_by_grammar(plain, before)):
         return affirmed
     meaning = judged_as_one(question) if is_doubted_statement(question) else None
-    meaning = meaning or with_adjective(question) or either_of(question)
+    meaning = meaning or with_adjective(question) or either_of(question) or step_asked(question)
     meaning = meaning or understand(question, before=before)
     if not before and isinstance(meaning, Unknowable):
         meaning = ruled_whole(plain) or meaning  # 'is it a square' is no question for a name

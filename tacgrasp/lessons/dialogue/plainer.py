@@ -59,7 +59,7 @@ _ADDRESS = re.compile(
     r"actually|by the way|good (?:morning|afternoon|evening)|just checking|just curious|"
     r"one more thing|one more question|(?:i|we) (?:would like|want|need|wish) to "
     r"(?:confirm|check|verify|ask|be sure|make sure|know)|but|oh|yo|buddy|mate|my friend|"
-    r"dear \w+|(?:mister|mr) \w+)"
+    r"dear \w+|(?:mister|mr) \w+|\w+(?: \w+)? (?:asks|wants to know|would like to know))"
     r"\s*[,:;!.…–—-]+\s+)+",
     re.I,
 )
@@ -155,7 +155,8 @@ _GRAVITY = (
     rf"9[.,]8\d*{_PER_SECOND}?|9[.,]8\d*{_PER_SECOND})"
 )
 _UNIT_NAME = (
-    r"(?:psi|m?bar|atm|[khm]?pa|(?:kilo|mega)?pascals?|mmhg|torr|n/[cm]m²|[mkc]?n|(?:milli)?newtons?|"
+    r"(?:psi|m?bar|atm|[khm]?pa|(?:kilo|mega)?pascals?|mmhg|torr|n/[cm]m²|[mkc]?n|"
+    r"(?:milli)?newtons?|"
     r"kgf|lbf|ozf|dyn(?:es?)?|kiloponds?|(?:pounds?|ounces?|lbs?|oz|grams?|kilograms?|kilos?|k?g)"
     r"(?:[- ](?:of )?force)?|inch(?:es)?|in|thou|mils?|[mcµn]m|milli?met(?:re|er)s?|microns?|"
     r"centimet(?:re|er)s?|ml|µl)"
@@ -181,10 +182,12 @@ _SQUARED = re.compile(
 _NUMERO = re.compile(r"\b(serial|phone|part|item|order|batch|lot|model) no\.", re.I)
 """'Serial no. of the part'."""
 
+_WHICH_ONE = re.compile(r"\bwhich one(?:['’]s| is) ", re.I)
 _CONVERT = re.compile(
     r"^(?:please )?(?:convert|express|translate|turn) (?P<what>(?:the |its |our )?[a-z ]+?) "
-    r"(?:to|into|in|as) (?P<unit>[cmk]?n|[cmµ]?m|(?:milli|centi|kilo)?newtons?|microns?|inch(?:es)?|"
-    r"(?:milli|centi|micro)met(?:re|er)s?|k?g|(?:kilo)?grams?|ounces?|pounds?|percent)(?=[?.! ]*$)",
+    r"(?:to|into|in|as) (?P<unit>[cmk]?n|[cmµ]?m|(?:milli|centi|kilo)?newtons?|microns?|"
+    r"inch(?:es)?|(?:milli|centi|micro)met(?:re|er)s?|k?g|(?:kilo)?grams?|ounces?|pounds?|"
+    r"percent)(?=[?.! ]*$)",
     re.I,
 )
 _ITS_TOPIC = re.compile(
@@ -274,6 +277,7 @@ def plainer(question: str) -> str:
         text,
     )
     text = _INFERIOR.sub("below", _SUPERIOR.sub("above", _MEANING.sub("", text)))
+    text = _WHICH_ONE.sub("which is ", text)
     text = _CONVERT.sub(r"give me \g<what> in \g<unit>", text)
     text = _NUMERO.sub(r"\1 number", metric(text))
     if opening := _ADDRESS.match(text):

@@ -26,13 +26,16 @@ from tacgrasp.lessons.dialogue.meaning import (
     Why,
     truth_of,
 )
+from tacgrasp.lessons.dialogue.plainer import in_words
 from tacgrasp.lessons.dialogue.quantities import GRAVITY_N_PER_G, QUANTITIES, UNITS, unit_of_name
 from tacgrasp.lessons.dialogue.rules.advised import is_step_advised
 from tacgrasp.lessons.turns.leads import without_lead
 from tacgrasp.lessons.turns.rewriting import unit_symbol
+from tacgrasp.lessons.understanding import understood_by_grammar
 
 _BY_HOW_MUCH = re.compile(
-    r"(?:by (?:how much|what|which margin|what margin|what amount)|how (?:much|many \w+)"
+    r"(?:by (?:how much|how many \w+|what|which margin|what margin|what amount)|how (?:much|many "
+    r"\w+)"
     r"(?: (?:over|under|above|below|more|less|too (?:much|little|high|low)))?"
     r"(?: (?:is|are)(?: there)? (?:still )?(?:missing|lacking|left|short|to spare|in hand))?|"
     r"how (?:much|far|many \w+) (?:off|away|short|over|apart)?(?: (?:are|is) (?:we|it|that|they|"
@@ -59,10 +62,14 @@ _IN_UNIT = re.compile(
 )
 
 
-LONGEST_STEP = 12
+LONGEST_STEP = 16
 """Longest follow-up that asks for a step [words]. Our choice."""
 
 _OPENS = re.compile(r"(?:what|which|how|where|why|when|who)\b", re.I)
+
+
+_OF_SIDE = {"side_x": "x_mm", "side_y": "y_mm"}
+"""Offsets behind the word for a side."""
 
 
 def asks_by_how_much(question: str) -> bool:
@@ -77,8 +84,14 @@ def difference_of(asked: Meaning, question: str) -> Calculated | None:
         asked: The comparison.
         question: The follow-up, which may want zero in place of what is not missing.
     """
+    if isinstance(asked, Which) and asked.name in _OF_SIDE:
+        return Calculated(truth=f"abs({_OF_SIDE[asked.name]})", unit="mm")
     if not isinstance(asked, Check | Calculated):
         return None
+    if asked.unit is None if isinstance(asked, Calculated) else False:
+        names = Expression(truth_of(asked)).names
+        if Expression(truth_of(asked)).choices and names in (("x_mm",), ("y_mm",)):
+            return Calculated(truth=f"abs({names[0]})", unit="mm")
     condition = asked.condition if isinstance(asked, Check) else asked.truth
     if condition.removeprefix("not (").removesuffix(")") == IN_BAND:
         return Calculated(truth=OUTSIDE_BAND, unit="N")
@@ -177,6 +190,54 @@ def of_another_mass(question: str, asked: Meaning | None) -> Calculated | None:
     factor = _SO_HEAVY.get(times) or float(times.split()[0])
     unit = None if isinstance(asked, Check) or asked is None else asked.unit
     return Calculated(truth=re.sub(r"\bmass_g\b", f"({factor:g} * mass_g)", truth), unit=unit)
+
+
+_WITH_FORCE = re.compile(
+    r"(?:if (?:i|we|you) )?(?:with |at |assume |suppose |assuming )?(?:(?:add|adding|squeeze|press|"
+    r"grip) )?(?P<number>\d+(?:\.\d+)?) ?(?P<unit>N|newtons?|mN|millinewtons?) "
+    r"(?P<way>more|less|extra|harder|softer|on top|off|added|fewer)"
+    r"(?: (?:force|grip|than(?: (?:now|that|measured|at present))?|squeeze))*(?:[, ]+instead)?",
+    re.I,
+)
+_TIMES_FORCE = re.compile(
+    r"(?:with |at |if (?:i|we) (?:had|used|applied) )?(?P<times>twice|double|half|three times) "
+    r"(?:the|that|this|our|my) (?:force|grip|squeeze)",
+    re.I,
+)
+_FEWER = ("less", "softer", "off", "fewer")
+_LETTING = re.compile(r"if (?:i|we|you) .+", re.I)
+MADE = {"twice": "2", "double": "2", "half": "0.5", "three times": "3"}
+
+
+def changed_force(question: str) -> str:
+    """The force that a follow-up supposes, as an expression: 'and with 0.4 N less'; '' of none."""
+    words = in_words(without_lead(question)).strip(" ?.!")
+    if found := _WITH_FORCE.fullmatch(words):
+        newtons = float(found["number"]) * UNITS[unit_symbol(found["unit"])].size
+        return f"(force_n {'-' if found['way'].lower() in _FEWER else '+'} {newtons:.6g})"
+    if found := _TIMES_FORCE.fullmatch(words):
+        return f"({MADE[found['times'].lower()]} * force_n)"
+    if _LETTING.fullmatch(words) and (read := understood_by_grammar(f"What {words}?")):
+        is_force = isinstance(read.meaning, Calculated) and read.meaning.unit == "N"
+        names = Expression(truth_of(read.meaning)).names if is_force else ()
+        return f"({truth_of(read.meaning)})" if names == ("force_n",) else ""
+    return ""
+
+
+def of_changed_force(force: str, asked: Meaning | None) -> Calculated | None:
+    """What was asked before, of another force; None of what has no force.
+
+    Args:
+        force: The other force.
+        asked: What was asked of the felt one.
+    """
+    if not isinstance(asked, Amount | Check | Calculated):
+        return None
+    truth = re.sub(r"\bholds_g\b", "force_n / gram_n", truth_of(asked))
+    if "force_n" not in truth:
+        return None
+    unit = None if isinstance(asked, Check) else asked.unit
+    return Calculated(truth=re.sub(r"\bforce_n\b", force, truth), unit=unit)
 
 
 def of_supposed_force(asked: Meaning, supposed: Meaning) -> Calculated | None:

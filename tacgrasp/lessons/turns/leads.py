@@ -12,7 +12,8 @@ _LEAD = re.compile(
     re.I,
 )
 _TAIL = re.compile(
-    r"(?:[, ]+(?:then|instead|please|pls|too|as well|now|also|at least|again|exactly|precisely|"
+    r"(?:,? (?:right|correct|yes or no|sorry|over or under|above or below)|"
+    r"[, ]+(?:then|instead|please|pls|too|as well|now|also|at least|again|exactly|precisely|"
     r"right now|at the moment|though|by the way|in total|altogether))+(?=[?.! ]*$)",
     re.I,
 )

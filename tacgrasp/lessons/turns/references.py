@@ -63,6 +63,13 @@ _SUM = re.compile(
 )
 
 
+PARTS = {"a quarter": "25", "a third": "33.3333", "half": "50", "a half": "50", "a tenth": "10",
+         "a fifth": "20", "two thirds": "66.6667", "three quarters": "75"}  # fmt: skip
+_PARTS = re.compile(rf"(?<=than )(?:{'|'.join(PARTS)})\b(?! of)")
+_HOW_FAR = re.compile(r"^how (?:far|much) (?P<way>from|off|above|below) (?:it|that)$")
+_DISTANCE = re.compile(
+    r"(?:(?:what is|the|absolute|its) )*(?:distance|difference|gap|margin) (?:to|from) (?P<what>.+)"
+)
 _COMPARES = re.compile(
     r"(?:more|less|over|under|above|below|at least|at most|exactly|about|deeper|shallower|higher|"
     r"lower|heavier|lighter|bigger|smaller|stronger|weaker|larger)(?: than)? (?=\d|\.\d|the |our |"
@@ -90,6 +97,11 @@ def of_number(question: str, about: Meaning | None, earlier: Meaning | None) -> 
     if term is None:
         return None
     core = in_words(without_lead(question)).lower().strip(" ?.!")
+    if term.dimension == "fraction":
+        core = _PARTS.sub(lambda part: f"{PARTS[part[0]]} %", core)
+    core = _HOW_FAR.sub(r"how far is the force \g<way> it", core)
+    if distance := _DISTANCE.fullmatch(core):
+        core = f"how far is it from {distance['what']}"
     if _COMPARES.match(core):
         core = f"is it {'' if not core.startswith('than') else 'more '}{core}"
     if _HAVE_IT.fullmatch(core) and term.dimension == "force" and "force_n" not in term.expression:

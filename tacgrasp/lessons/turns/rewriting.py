@@ -34,7 +34,10 @@ _LEAD = (
     r"(?:(?:and|but|or|so|ok|okay|well|then|now|no|sorry|what about|how about|i meant?|"
     r"make (?:it|that))[, ]+)*"
 )
-_END = r"(?:[, ]+(?:then|instead|please|pls|now|more|extra|too|as well|at least))*[?.! ]*"
+_END = (
+    r"(?:[, ]+(?:then|instead|please|pls|now|more|extra|too|as well|at least|sorry|next|first|"
+    r"right))*[?.! ]*"
+)
 
 _UNIT_WORDS = {
     "N": r"N|newtons?",
@@ -49,6 +52,12 @@ _UNIT_WORDS = {
     "cm": r"cm|centimet(?:re|er)s?",
     "mm²": r"mm²|mm2|square millimet(?:re|er)s?",
     "kPa": r"kPa|kilopascals?",
+    "thou": r"thou",
+    "in": r"inch|inches",
+    "cN": r"cN|centinewtons?",
+    "lbf": r"lbf|pounds?[ -]force",
+    "kgf": r"kgf",
+    "cm²": r"cm²|cm2|square centimet(?:re|er)s?",
 }
 _NUMBER = rf"(?P<number>\d+(?:[.,]\d+)?)(?:\s*(?P<unit>{'|'.join(_UNIT_WORDS.values())})(?!\w))?"
 _STATED = re.compile(rf"(?<![\w.,]){_NUMBER}(?!\w|\.\d)", re.I)
@@ -83,10 +92,11 @@ _OPPOSITE = {
     "left": "right", "right": "left", "top": "bottom", "bottom": "top", "upper": "lower",
     "lower": "upper", "fingertip": "palm", "palm": "fingertip",
 }  # fmt: skip
-_EDGE = r"(?: one| edge| side| rim| border| end)"
+_EDGE = r"(?: one| edge| side| rim| border| end| third| half| row| column)"
 _ANOTHER_SIDE = re.compile(
     rf"{_LEAD}(?:(?:the )?same(?: \w+)? (?:for|at|to|from) )?(?:(?:up|down) )?"
-    rf"(?:on |at |to |from |towards? )?(?:the )?(?P<side>{'|'.join(_SIDES)}){_EDGE}?"
+    rf"(?:top,? )?(?:on |at |to |from |off |over |towards? )?(?:the )?"
+    rf"(?P<side>{'|'.join(_SIDES)}){_EDGE}?"
     rf"(?: too| as well)?{_END}",
     re.I,
 )
@@ -95,7 +105,8 @@ _OTHER_SIDE = re.compile(
     re.I,
 )
 _HOW_MANY_SIDES = re.compile(
-    rf"{_LEAD}(?:over |on |at |across )?how many (?:sides|edges|rims|borders)(?: is (?:it|that))?"
+    rf"{_LEAD}(?:over |on |at |across )?(?:how many|(?:the )?(?:total )?number of)"
+    rf"(?: of the)?(?: (?:four|4|cut))?(?: of)? (?:sides|edges|rims|borders)(?: is (?:it|that))?"
     rf"(?:[, ]+(?:altogether|in all|in total|overall))?{_END}",
     re.I,
 )
@@ -112,13 +123,17 @@ _ANOTHER_AXIS = re.compile(
 )
 
 _BAND_WORDS = {
-    r"(?:where does it |where's the |the |its |it )*(?:end|ends|stop|stops|upper(?: end)?|top)":
+    r"(?:where does it |where's the |the |its |it )*(?:end|ends|stop|stops|(?:upper|high|"
+    r"higher)(?: end| one)?|top)":
         "What is the upper end of the band?",
-    r"(?:where does it |where's the |the |its |it )*(?:start|starts|begin|begins|lower(?: end)?|"
+    r"(?:where does it |where's the |the |its |it )*(?:start|starts|begin|begins|low(?:er)?(?: "
+    r"end| one)?|"
     r"bottom)": "What is the lower end of the band?",
-    r"(?:how (?:wide|broad) is it|(?:the |its )?(?:width|breadth|span))":
+    r"(?:how (?:wide|broad) (?:is it|does that make it)|(?:the |its )?(?:width|breadth|span))":
         "What is the width of the band?",
-    r"(?:(?:where|what) is )?(?:the |its )?(?:middle|midpoint|cent(?:er|re)|mean)(?: of it)?":
+    r"(?:(?:where|what) is )?(?:the |its )?(?:middle|midpoint|cent(?:er|re)|mean)(?: of (?:it|"
+    r"them|both|"
+    r"the two))?":
         "What is the middle of the band?",
 }  # fmt: skip
 _BAND_WORD = {
@@ -127,9 +142,12 @@ _BAND_WORD = {
 """Follow-ups about the band, once one of its ends was asked for."""
 
 _NAMED = re.compile(
-    rf"{_LEAD}(?:(?:the )?same (?:for|with) |add |tell me |give me |as for |how is |what is )*"
+    rf"{_LEAD}(?:wait[, ]+)?(?:not (?:the |in )?\w+, )?"
+    rf"(?:(?:the )?same (?:for|with) |add |tell me |give me |as for |how is |what is )*"
     rf"(?:the |its |your )*(?P<name>shape|form|texture|surface|depth|force|position|place|"
-    rf"area|size|mass|limit|band)(?: of it)?(?: too| as well| at least)?{_END}",
+    rf"area|size|mass|limit|band)(?: of it)?(?: too| as well| at least)?"
+    rf"(?: i (?:meant|mean|wanted|want))?"
+    rf"(?P<unit>,? in [^\s?.!,]+)?{_END}",
     re.I,
 )
 _CALLS = {"form": "shape", "surface": "texture", "place": "position", "size": "contact area",
@@ -195,12 +213,16 @@ def rewritten(question: str, before: str, meant: Meaning | None, noun: str) -> I
     question = question.strip()
     for text in (
         _claimed(question, before),
+        _stated(question),
+        _of_that_quantity(question, meant),
+        _still_under(question, noun),
+        _figure_of(question, meant),
         _which_then(question, meant),
         _about_the_pad(question, meant),
         *_about_place(question, before, meant),
         _with_another_side(question, before),
         *_about_the_band(question, meant),
-        _needed(question, meant),
+        _needed(question, before, meant),
         _with_another_number(question, before),
         *_with_another_supposition(question, before),
         _under_supposition(question, before),
@@ -272,6 +294,60 @@ _WHICH_THEN = re.compile(
 )
 
 
+_STATED_SO = re.compile(
+    r"(?:so |then |and )*(?:that|this|it)(?:['’]s| is| means it(?:['’]s| is)) (?P<what>.+?)[?.! ]*",
+    re.I,
+)
+_THAT_QUANTITY = re.compile(r"\b(?:that|this) (?P<what>force|depth|area|mass|limit|grip)\b", re.I)
+_STILL_UNDER = re.compile(
+    r"(?:and )?(?P<if>(?:if|with|assume|suppose) [^,?]*?(?:\.\d+[^,?]*?)?)[,.:] "
+    r"(?:is (?:it|that) |are we )?(?:still )?(?P<side>over|under|above|below)"
+    r"(?: (?:it|that))?(?: then| still)?[?.! ]*",
+    re.I,
+)
+_FIGURE = re.compile(
+    r"(?:what(?:['’]s| is) (?:the |its )?(?:(?:real|actual|exact|true|precise) )?(?:figure|"
+    r"number|value|"
+    r"reading)|how (?:much|deep|strong|big) is it|(?:the )?exact (?:figure|number|value))"
+    r"(?: then| really| exactly| in fact)*[?.! ]*",
+    re.I,
+)
+
+
+def _stated(question: str) -> str:
+    """'So that's in the middle row?' as a question."""
+    found = _STATED_SO.fullmatch(question)
+    return f"Is it {found['what']}?" if found and question.rstrip().endswith("?") else ""
+
+
+def _of_that_quantity(question: str, meant: Meaning | None) -> str:
+    """A question of 'that force', where the force was asked for."""
+    found = _THAT_QUANTITY.search(question)
+    name = {"grip": "force"}.get(found["what"].lower(), found["what"].lower()) if found else ""
+    if not found or not isinstance(meant, Amount) or meant.quantity != name:
+        return ""
+    return f"{question[: found.start()]}the {name}{question[found.end() :]}"
+
+
+def _still_under(question: str, noun: str) -> str:
+    """'If I add 0.3 N, still under?' with what it may be under."""
+    found = _STILL_UNDER.fullmatch(question)
+    if found is None:
+        return ""
+    return f"{found['if']}, is the force {found['side']} {noun or 'the band'}?"
+
+
+def _figure_of(question: str, meant: Meaning | None) -> str:
+    """The number behind a yes or a no: 'what is the real figure?'."""
+    if _FIGURE.fullmatch(question) is None or not isinstance(meant, Check | Calculated):
+        return ""
+    names = names_of(meant)
+    figures = {"depth_mm": "depth", "depth": "depth", "force_n": "force", "area_percent": "area",
+               "area": "area", "area_mm2": "area"}  # fmt: skip
+    felt = list(dict.fromkeys(figures[name] for name in names if name in figures))
+    return f"What is the {felt[0]} as a number?" if len(felt) == 1 else ""
+
+
 def _which_then(question: str, meant: Meaning | None) -> str:
     """The word for what was asked about with a yes or no: 'what would you call it?'."""
     shown = meant.shows if isinstance(meant, Check) else ()
@@ -298,6 +374,8 @@ def _about_the_pad(question: str, meant: Meaning | None) -> str:
     if not names or not set(names) <= {"pad_width_mm", "pad_height_mm"}:
         return ""
     words = without_lead(question)
+    if re.fullmatch(r"(?:height|width|area)[?.! ]*", words, re.I):
+        return f"the pad's {'total ' if words.lower().startswith('area') else ''}{words}"
     if re.fullmatch(r"how (?:high|wide|tall|broad)[?.! ]*", words, re.I):
         return f"{words.rstrip('?.! ')} is the pad?"
     return _OF_PAD.sub(
@@ -312,7 +390,11 @@ def _about_the_band(question: str, meant: Meaning | None) -> Iterator[str]:
     parts = meant.parts if isinstance(meant, Several) else (meant,)
     if all(isinstance(each, Amount) and each.quantity.startswith("band_") for each in parts):
         yield from (text for words, text in _BAND_WORD.items() if words.fullmatch(question))
-    own = _OWN_END.sub(r"the \g<which> end of the band", without_lead(question))
+    own = _OWN_END.sub(
+        lambda end: f"the {_PLAIN_END.get(end['which'].lower(), end['which'])} end of the band",
+        without_lead(question),
+    )
+    own = re.sub(r"\bof (?:it|them)\b", "of the band", own)
     yield own
     yield _ARE_WE.sub("Is the force", own)
     if _IN.search(question):
@@ -320,26 +402,29 @@ def _about_the_band(question: str, meant: Meaning | None) -> Iterator[str]:
 
 
 _OWN_END = re.compile(
-    r"\b(?:the|its|that|this) (?P<which>upper|lower|top|bottom)(?: (?:end|edge|bound|limit|one)\b"
-    r"(?! of)|(?= or )|(?=[?.! ]*$))",
+    r"\b(?:the|its|that|this) (?P<which>upper|lower|top|bottom|high|low)(?: (?:end|edge|bound|"
+    r"limit|one)\b"
+    r"(?: of (?:it|that|this)\b)?(?! of)|(?= or )|(?=[?.! ]*$))",
     re.I,
 )
+_PLAIN_END = {"high": "upper", "low": "lower", "top": "upper", "bottom": "lower"}
 _ARE_WE = re.compile(r"^(?:am i|are we)\b", re.I)
 _IN = re.compile(r"(?<=\w )(?:in|inside|within)(?: (?:it|that|there))?(?=[?.! ]*$)", re.I)
 """'Am I in?', after a band."""
 
 
 _NEEDED = re.compile(
-    r"(?:and |so |but )*(?:(?:with )?how (?:much|many newtons)|what|which)"
-    r"(?: (?:of )?(?:grip|force))* (?:(?:does|do|would) (?:it|that|the \w+|we|i) "
-    r"(?:need|take|require)|is needed|is required|"
-    r"would (?:just )?do|(?:would )?(?:surely|safely|just) holds?(?: it| that)?)"
-    r"(?: (?:to|for) (?:hold|that|it|this)(?: it)?)?(?: (?:for sure|surely|safely|then))*[?.! ]*",
+    r"(?=.*\b(?:force|grip|squeeze|newtons?|hard|strong|strongly)\b)"
+    r"(?=.*\b(?:needs?|needed|requires?|required|minimum|min|least|enough|takes?|surely|sure|"
+    r"safely|do|holds?)\b)(?!.*\b(?:is it|is that|are we|have|limit|heaviest|grams?|still|more|"
+    r"less)\b)"
+    r"(?:(?:and|so|but|then)[, ]+)*(?:(?:with )?how (?:much|many|strong|hard)|what|which|"
+    r"(?:the )?(?:minimum|least|needed|required|grip|force))\b.*",
     re.I,
 )
 
 
-def _needed(question: str, meant: Meaning | None) -> str:
+def _needed(question: str, before: str, meant: Meaning | None) -> str:
     """What force the mass needs that was asked about before."""
     truth = "" if meant is None else truth_of(meant)
     is_of_mass = "mass_g" in truth or "gram_n" in truth
@@ -372,9 +457,18 @@ def _of_named_class(question: str, meant: Meaning | None) -> str:
     return f"Is the {dimension} {_uncapital(words)}?" if is_named else ""
 
 
+_ANOTHER_THING = re.compile(
+    rf"{_LEAD}(?:for |with |of )?(?:an?|the|one|my|our) (?:[a-z'-]+ ){{0,3}}?[a-z'-]+,? "
+    rf"(?:(?:of|with|at|that weighs|weighing) )?(?:about )?{_NUMBER}"
+    rf"(?:,? would (?:that(?: one)?|it) (?:hold|slip|stay|work))?{_END}",
+    re.I,
+)
+"""'And an ostrich egg, 1400 g?'"""
+
+
 def _of_a_mass(question: str, before: str, meant: Meaning | None) -> str:
     """The question before, of another mass than the one that was told."""
-    asked = _ANOTHER_NUMBER.fullmatch(in_digits(question))
+    asked = _ANOTHER_NUMBER.fullmatch(in_digits(question)) or _ANOTHER_THING.fullmatch(question)
     if asked is None or dimension_of(asked["unit"]) != "mass" or meant is None:
         return ""
     truth = truth_of(meant)
@@ -387,7 +481,7 @@ def _named_alone(question: str) -> str:
     if (asked := _NAMED.fullmatch(question)) is None:
         return ""
     name = asked["name"].lower()
-    return f"What is the {_CALLS.get(name, name)}?"
+    return f"What is the {_CALLS.get(name, name)}{(asked['unit'] or '').lstrip(',')}?"
 
 
 def _with_another_number(question: str, before: str) -> str:
@@ -422,7 +516,7 @@ def unit_symbol(written: str) -> str:
     return ""
 
 
-def _supposed(text: str) -> tuple[str, str] | None:
+def supposed_in(text: str) -> tuple[str, str] | None:
     """The supposition of a question and what is asked under it; None without one."""
     for pattern in _SUPPOSED:
         if found := pattern.fullmatch(text.strip()):
@@ -432,7 +526,7 @@ def _supposed(text: str) -> tuple[str, str] | None:
 
 def _with_another_supposition(question: str, before: str) -> Iterator[str]:
     """What was asked before, under another supposition."""
-    found, supposed = _ANOTHER_IF.fullmatch(question), _supposed(before)
+    found, supposed = _ANOTHER_IF.fullmatch(question), supposed_in(before)
     if found is None:
         return
     asked = supposed[1] if supposed else before
@@ -444,7 +538,7 @@ def _with_another_supposition(question: str, before: str) -> Iterator[str]:
 
 def _under_supposition(question: str, before: str) -> str:
     """A follow-up about what was supposed before."""
-    supposed = _supposed(before)
+    supposed = supposed_in(before)
     if _CHANGED.search(question):
         return ""
     if supposed is None or _ANOTHER_IF.match(question) or not _UNDER_IT.search(question):

@@ -13,6 +13,7 @@ import re
 from dataclasses import dataclass, replace
 
 from tacgrasp.lessons.dialogue.meaning import Amount, Meaning, Several, names_of
+from tacgrasp.lessons.dialogue.plainer import AUXILIARY
 from tacgrasp.lessons.dialogue.quantities import UNITS
 from tacgrasp.lessons.dialogue.scene import AskedScene, band_contract
 from tacgrasp.lessons.turns.rewriting import dimension_of, unit_symbol
@@ -68,16 +69,19 @@ class Told:
         """The question that it answers."""
         if self.mass_g is not None:
             return "What is the mass?"
-        return "What is the limit?" if self.limit_n is not None else "What is the band?"
+        return "What is the limit?" if self.band_n is None else "What is the band?"
 
     @property
     def text(self) -> str:
         """It in words."""
+        told = []
         if self.mass_g is not None:
-            return f"the object weighs {self.mass_g:g} g"
+            told.append(f"the object weighs {self.mass_g:g} g")
         if self.band_n is not None:
-            return f"the force band is {self.band_n[0]:g} to {self.band_n[1]:g} N"
-        return f"the limit is {self.limit_n:g} N"
+            told.append(f"the force band is {self.band_n[0]:g} to {self.band_n[1]:g} N")
+        if self.limit_n is not None:
+            told.append(f"the limit is {self.limit_n:g} N")
+        return " and ".join(told)
 
 
 _CORRECTED = re.compile(
@@ -106,7 +110,7 @@ def told_in(text: str, about: Meaning | None = None) -> tuple[Told, str] | None:
     if found is None and (circumstance := _BEFORE_IT.match(text)):
         found = _TOLD.fullmatch(text[circumstance.end() :])
     if found is None:
-        return None
+        return _told_freely(text)
     mass_g = _number(found, "mass", "mass")
     limit_n = _number(found, "limit", "force")
     high_n = _number(found, "high", "force")
@@ -118,6 +122,76 @@ def told_in(text: str, about: Meaning | None = None) -> tuple[Told, str] | None:
         return None
     told = Told(mass_g=mass_g, band_n=band_n, limit_n=limit_n, is_supposed=bool(found["if"]))
     return told, found["asked"] or ""
+
+
+_SENTENCE = re.compile(r"(?<=[.!?])(?<!\d\.)\s+(?=\S)")
+_ASKS = re.compile(
+    rf"(?:(?:and|so|but|then|ok|now|please|well)[, ]+)*(?:{AUXILIARY}(?:n['’]?t)?|what|which|how|"
+    r"where|why|when|who|by how|tell|give|say|list|report|log|state|name|show|describe|compare|"
+    r"confirm|check|verify|add|take|press|squeeze|true|false|pass|fail|if|assume|answer|pick|"
+    r"choose|express|convert|more|less|over|under|above|below|and|half|twice|"
+    r"(?:at|with|for|in)\b(?!.*\b(?:is|are|was|weighs?|wants?|set|have|has)\b))\b",
+    re.I,
+)
+"""What begins a question, an order or a supposition, and no statement."""
+
+_SUPPOSES = re.compile(r"(?:(?:and|now|so)[, ]+)*(?:suppose|supposing|say|imagine)\b", re.I)
+_IS_MASS = re.compile(
+    r"(?<![\w.,])(?P<number>\d+(?:[.,]\d+)?)[ -]?(?P<unit>g|grams?|gr|kg|kilos?|kilograms?|"
+    r"oz|ounces?|lbs?|pounds?)\b(?![ -]?(?:force|of force))",
+    re.I,
+)
+_FORCE_UNIT = r"(?P<{}>N|newtons?|mN|millinewtons?)\b"
+_IS_BAND = re.compile(
+    rf"(?<![\w.,])(?P<low>\d+(?:[.,]\d+)?)(?: ?{_FORCE_UNIT.format('low_unit')})? ?"
+    rf"(?:to|-|–|and|up to) ?(?P<high>\d+(?:[.,]\d+)?) ?{_FORCE_UNIT.format('high_unit')}",
+    re.I,
+)
+_IS_FORCE = re.compile(
+    rf"(?<![\w.,])(?P<number>\d+(?:[.,]\d+)?) ?{_FORCE_UNIT.format('unit')}", re.I
+)
+_BOUNDS = re.compile(
+    r"\b(?:limit\w*|max\w*|never|no more|not more|(?:don['’]?t|do not|must not|mustn['’]?t|"
+    r"can['’]?t) (?:\w+ ){0,3}?(?:more|exceed|above|over|beyond)|at most|ceiling|cap|not above|"
+    r"not over|"
+    r"not exceed\w*|stay (?:below|under)|keep (?:it )?(?:below|under))\b",
+    re.I,
+)
+_CHANGES = re.compile(
+    r"\b(?:heavier|lighter|more than|less than|over|under|above|below|added?|extra|scale|spec|"
+    r"weight of|true|false|correct|right|wrong)\b",
+    re.I,
+)
+"""What a mass may be besides that of the object."""
+
+
+def _told_freely(text: str) -> tuple[Told, str] | None:
+    """What a statement tells in whatever words: 'My peaches run about 150 g'; None of others."""
+    sentences = _SENTENCE.split(text)
+    stated = [each for each in sentences if not each.endswith("?") and not _ASKS.match(each)]
+    asked = " ".join(each for each in sentences if each not in stated)
+    words = " ".join(stated)
+    if not stated or sentences[: len(stated)] != stated:
+        return None
+    told = Told(is_supposed=bool(_SUPPOSES.match(words) and asked))
+    masses, band = list(_IS_MASS.finditer(words)), _IS_BAND.search(words)
+    if len(masses) == 1 and not _CHANGES.search(words):
+        size = UNITS[unit_symbol(masses[0]["unit"])].size
+        told = replace(told, mass_g=_float(masses[0]["number"]) * size)
+    if band:
+        high_size = UNITS[unit_symbol(band["high_unit"])].size
+        low_size = UNITS[unit_symbol(band["low_unit"])].size if band["low_unit"] else high_size
+        ends = (_float(band["low"]) * low_size, _float(band["high"]) * high_size)
+        told = replace(told, band_n=ends)
+    rest = f"{words[: band.start()]} {words[band.end() :]}" if band else words
+    forces = list(_IS_FORCE.finditer(rest))
+    if len(forces) == 1 and _BOUNDS.search(rest):
+        size = UNITS[unit_symbol(forces[0]["unit"])].size
+        told = replace(told, limit_n=_float(forces[0]["number"]) * size)
+    elif forces:
+        return None
+    is_told = told.mass_g is not None or told.band_n is not None or told.limit_n is not None
+    return (told, asked) if is_told else None
 
 
 def _told_before(about: Meaning | None) -> str:
@@ -156,15 +230,16 @@ def with_told(scene: AskedScene, told: Told) -> AskedScene:
         scene = replace(scene, mass_g=told.mass_g)
     if told.band_n is None and told.limit_n is None:
         return scene
+    limit_n = scene.told_limit_n if told.limit_n is None else told.limit_n
     if told.band_n is not None:
-        limit_n = scene.told_limit_n
-        is_below = limit_n is not None and limit_n >= told.band_n[1]
-        contract = band_contract(*told.band_n, limit_n if is_below else None)
-        return replace(scene, contract=contract, told_limit_n=limit_n if is_below else None)
-    assert told.limit_n is not None
-    contract = scene.contract
-    if contract is not None and told.limit_n < contract.terms.force_n.high:
-        contract = None
-    if contract is not None:
-        contract = replace(contract, limit_n=told.limit_n)
-    return replace(scene, contract=contract, told_limit_n=told.limit_n)
+        is_above = limit_n is not None and limit_n >= told.band_n[1]
+        if told.limit_n is not None and not is_above:
+            raise ValueError("the limit lies below the band")
+        contract = band_contract(*told.band_n, limit_n if is_above else None)
+        return replace(scene, contract=contract, told_limit_n=limit_n if is_above else None)
+    assert limit_n is not None
+    contract_before = scene.contract
+    if contract_before is None or limit_n < contract_before.terms.force_n.high:
+        return replace(scene, contract=None, told_limit_n=limit_n)
+    contract = replace(contract_before, limit_n=limit_n)
+    return replace(scene, contract=contract, told_limit_n=limit_n)

@@ -18,18 +18,26 @@ from tacgrasp.lessons.dialogue.query import query_of
 from tacgrasp.lessons.read_question import ReadQuestion
 from tacgrasp.lessons.turns.follow_ups import (
     asks_by_how_much,
+    changed_force,
     difference_of,
     in_another_unit,
     leaves_unit_out,
     of_advice,
     of_another_mass,
+    of_changed_force,
     of_supposed_force,
     reason_of,
     with_quantity_of,
 )
 from tacgrasp.lessons.turns.leads import without_lead
 from tacgrasp.lessons.turns.references import of_number
-from tacgrasp.lessons.turns.rewriting import about_the_force, noun_of, rewritten, with_noun
+from tacgrasp.lessons.turns.rewriting import (
+    about_the_force,
+    noun_of,
+    rewritten,
+    supposed_in,
+    with_noun,
+)
 from tacgrasp.lessons.turns.told import Told, told_in
 from tacgrasp.lessons.understanding import (
     CALCULATED_CONFIDENCE,
@@ -75,6 +83,7 @@ class Turn:
         number: The number that was last asked for; None before the first.
         numbered: The question that asked for it, as it stands alone; ''.
         earlier: The number before that; None likewise.
+        of_felt: What was last asked of the force that is felt, not a supposed one; None likewise.
         noun: What a pronoun may stand for: 'the limit', where that was asked for; ''.
         told: What the question tells besides: a mass, a band or a limit; None where it tells none.
     """
@@ -85,25 +94,41 @@ class Turn:
     number: Meaning | None = None
     numbered: str = ""
     earlier: Meaning | None = None
+    of_felt: Meaning | None = None
     noun: str = ""
     told: Told | None = None
 
-    def then(self, text: str, read: ReadQuestion | None, *, is_whole: bool = False) -> Turn:
+    def then(
+        self,
+        text: str,
+        read: ReadQuestion | None,
+        *,
+        is_whole: bool = False,
+        is_supposed: bool = False,
+    ) -> Turn:
         """The turn after this; what came to nothing, or asks why, is nothing to follow.
 
         Args:
             text: The next question as it stands alone.
             read: What it means; None where it came to nothing.
             is_whole: Whether it leaves nothing to those before it.
+            is_supposed: Whether it asks of a supposed force what was asked of the felt one.
         """
         if read is None or isinstance(read.meaning, Unknowable | OffTopic):
             return replace(self, read=read, text=self.text or text, told=None)
         about = self.about if isinstance(read.meaning, Why | Description) else read.meaning
         noun = noun_of(read.meaning) or ("" if is_whole else self.noun)
-        turn = replace(self, read=read, text=text, about=about, noun=noun, told=None)
+        of_felt = self.of_felt if is_supposed or supposed_in(text) else about
+        turn = replace(
+            self, read=read, text=text, about=about, of_felt=of_felt, noun=noun, told=None
+        )
         if kind_of(read.meaning) is not AnswerKind.NUMBER or read.meaning == self.number:
             return turn
         return replace(turn, number=read.meaning, numbered=text, earlier=self.number)
+
+
+_OF_NUMBERS = (AnswerKind.NUMBER, AnswerKind.YES_NO, AnswerKind.CHOICE)
+"""Kinds of questions behind which 'that' may be the last number."""
 
 
 def next_turn(writer: QueryWriter, question: str, before: Turn) -> Turn:
@@ -124,6 +149,8 @@ def next_turn(writer: QueryWriter, question: str, before: Turn) -> Turn:
         return before.then(question, understood(writer, question))
     if heavier := of_another_mass(question, before.about):
         return before.then(before.text, _read_so(heavier))
+    if (force := changed_force(question)) and (supposed := of_changed_force(force, before.of_felt)):
+        return before.then(before.text, _read_so(supposed), is_supposed=True)
     for text in (
         *rewritten(question, before.text, before.about, before.noun),
         *rewritten(question, before.numbered, before.number, ""),
@@ -165,7 +192,7 @@ def _by_meaning(question: str, before: Turn, about: Meaning) -> ReadQuestion | N
         return understood_by_grammar(named)
     elif unit := in_another_unit(question, about):
         meaning = unit
-    elif kind_of(about) in (AnswerKind.NUMBER, AnswerKind.YES_NO) and (
+    elif kind_of(about) in _OF_NUMBERS and (
         by_number := of_number(question, before.number, before.earlier)
     ):
         meaning = by_number

@@ -98,7 +98,7 @@ _VERB = re.compile(
 )
 _WHOLE_PAD = (
     rf"(?:(?:the|your|this|our|its|whole|entire|full) )*(?:(?:sensing|gel|sensor|tactile|touch) )*"
-    rf"{_PAD}(?: surface| itself)?"
+    rf"{_PAD}(?: surface| itself)?(?: (?:that )?(?:you|we) (?:feel|sense|touch)(?: with)?)?"
 )
 _PAD_IS = re.compile(
     rf"(?:how (?:(?P<wide>wide|broad)|high|tall) is {_WHOLE_PAD}|"

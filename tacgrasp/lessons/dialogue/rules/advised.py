@@ -35,15 +35,21 @@ _STEPS: tuple[tuple[re.Pattern[str], tuple[str, ...]], ...] = tuple(
     (re.compile(rf"\b(?:{pattern})\b"), actions)
     for pattern, actions in (
         (
+            r"sideways,? (?:or )?up,? (?:or )?down|up,? down,? left,? or right|(?:any|whatever|"
+            r"some) "
+            r"direction|one of the (?:four|4) moves",
+            (_UP, _DOWN, _LEFT, _RIGHT),
+        ),
+        (
             rf"sideways|side to side|horizontally|left or right|{_MOVE} (?:to the )?(?:left or "
             r"(?:to the )?right|right or (?:to the )?left)",
             (_LEFT, _RIGHT),
         ),
         (rf"vertically|up or down|lengthways?|{_MOVE} (?:down or up)", (_UP, _DOWN)),
-        (rf"{_MOVE} (?:\w+ ){{0,3}}(?:to the )?left", (_LEFT,)),
-        (rf"{_MOVE} (?:\w+ ){{0,3}}(?:to the )?right", (_RIGHT,)),
-        (rf"{_MOVE} (?:\w+ ){{0,3}}(?:up|upwards?|palm)", (_UP,)),
-        (rf"{_MOVE} (?:\w+ ){{0,3}}(?:down|downwards?|fingertip)", (_DOWN,)),
+        (rf"{_MOVE} (?:\w+ ){{0,3}}(?:to the )?left|to the left", (_LEFT,)),
+        (rf"{_MOVE} (?:\w+ ){{0,3}}(?:to the )?right|to the right", (_RIGHT,)),
+        (rf"{_MOVE} (?:\w+ ){{0,3}}(?:up|upwards?|palm)|up(?:wards?)?$", (_UP,)),
+        (rf"{_MOVE} (?:\w+ ){{0,3}}(?:down|downwards?|fingertip)|down(?:wards?)?$", (_DOWN,)),
         (
             rf"{_GRIP} (?:\w+ ){{0,2}}{_FIRMER}|(?:increas|rais)(?:e|ing)|"
             rf"tighten(?:ing)?|{_FIRMER}",
@@ -100,7 +106,7 @@ def step_condition(words: str) -> str:
 
 def is_step_advised(question: str) -> Calculated | None:
     """Whether the step that a question names is advised, by its words alone; None of others."""
-    words = question.lower().strip()
+    words = question.lower().strip(" ?.!")
     if re.search(r"\d|\bwhy\b|\bif\b|\bbecause\b", words):
         return None
     condition = step_condition(_ADVICE.sub(" ", words))
@@ -113,6 +119,7 @@ def is_step_advised(question: str) -> Calculated | None:
 def advised(question: str) -> Calculated | None:
     """What a question asks of the advice: yes or no, or one of two steps; None of others."""
     words = question.lower().strip()
+    words = _STATED.sub(r"is \g<what>", words)
     if _ASKS_YES.match(words) and _ADVICE.search(words) and " or no" not in words:
         return is_step_advised(words)
     if (found := _CHOICE.fullmatch(words)) is None:
@@ -123,6 +130,23 @@ def advised(question: str) -> Calculated | None:
     told: Mapping[str, str] = {found["first"].strip(): first, found["second"].strip(): second}
     branches = " else ".join(f"'{word}' if {condition}" for word, condition in told.items())
     return Calculated(truth=f"{branches} else '{found['else']}'", unit=None)
+
+
+def step_asked(question: str) -> Calculated | None:
+    """Whether to move, or to begin again: 'should I shift it?'; None of other questions."""
+    words = question.lower().strip()
+    if not _SHOULD.match(words) or re.search(r"\bor\b|\d|\bif\b|\bwhy\b", words):
+        return None
+    condition = step_condition(_SHOULD.sub("", words))
+    is_step = "move_" in condition or "reset" in condition
+    return Calculated(truth=condition, unit=None) if is_step else None
+
+
+_STATED = re.compile(r"^(?:so )?(?P<what>(?:your|the) (?:advice|recommendation|tip) is) ")
+_SHOULD = re.compile(
+    r"(?:and |so |then )*(?:should|shall|must|do|does|need) (?:i|we|it|the (?:gripper|robot|hand|"
+    r"finger))(?: (?:have|need|ought) to)? "
+)
 
 
 def _one_of(words: str) -> str:

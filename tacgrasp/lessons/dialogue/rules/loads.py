@@ -49,6 +49,15 @@ _ASKS_FORCE = re.compile(
 )
 
 
+_WORKS = re.compile(
+    r"(?:would|will|can|could|is|are) (?:an? )?# \w+(?: (?:object|part|piece|thing|one))?(?: "
+    r"(?:surely|"
+    r"still|be))* (?:work|ok|okay|fine|do|hold|held|safe|possible|stay|stays|all right)"
+    r"(?: (?:at|with|in|for) (?:the |this |that |our )?(?:present |current )?(?:grip|force|"
+    r"squeeze))?"
+)
+
+
 def load_query(words: str) -> str:
     """The query of a question that names masses, in plain words; '' of any other question."""
     units = [match[1] or "" for match in _NUMBER.finditer(words)]
@@ -65,6 +74,8 @@ def load_query(words: str) -> str:
         if _TOO_LITTLE.search(words):
             return f"check {tested} > {newtons}."
         return f"check {tested} <= {newtons}." if _ENOUGH.search(words) else ""
+    if len(units) == len(masses) == 1 and _WORKS.fullmatch(words):
+        return f"check stays #1 {_MASS_UNITS[units[0]]}."
     if not units and _HELD.fullmatch(words):
         return "amount holds g."
     if len(units) > 1 and not forces and units[-1] in _MASS_UNITS and _are_listed(words):

@@ -38,7 +38,8 @@ _LENGTHWISE = re.compile(r"\b(?:vertical|vertically|lengthwise|along y|in y)\b")
 _EARLIER = re.compile(
     r"\bhow long (?:ago|(?:has|have|had|did|was|were)\b)|\bsince (?:(?:the )?(?:last|previous|"
     r"start|beginning|first)|then|when|yesterday|(?:we|it) (?:touched|started|began|gripped))\b|"
-    r"\b(?:second|moment|while|minute|frame|step)s? ago\b|"
+    r"\b(?:second|moment|while|minute|frame|step)s? (?:ago|before|earlier)\b|"
+    r"\bthe (?:touch|reading|grip|contact|frame) before\b|"
     r"\b(?:last|previous|prior|former) "
     r"(?:frame|step|time|touch|reading|second|minute|grasp|contact)\b|"
     r"\bthan (?:before|earlier|previously|a (?:moment|second|while) ago|just now)\b"

@@ -35,8 +35,10 @@ _THIRDS = re.compile(
     rf"\b(?P<a>{_PART}){_STRIP} (?:or )?(?P<b>{_PART}){_STRIP} or (?:the )?(?P<c>{_PART})\b"
 )
 _OF_PLACE = (
-    r"(?:is|s|true|that|does|do|in|into|on|at|the|a|an|of|it|its|this|that|contact|contact's|touch|center|"
-    r"centre|middle|object|thing|patch|print|imprint|pad|pad's|gel|sensor|width|height|third|thirds|"
+    r"(?:is|s|true|that|does|do|in|into|on|at|the|a|an|of|it|its|this|that|contact|contact's|"
+    r"touch|center|"
+    r"centre|middle|object|thing|patch|print|imprint|pad|pad's|gel|sensor|width|height|third|"
+    r"thirds|"
     r"strip|strips|column|columns|row|rows|part|parts|side|by|which|what|contains?|holds?|has|have|"
     r"lies?|sits?|falls?|fall|lands?|landed|lie|sit|be|horizontally|vertically|sideways|split|cut|"
     r"divided?|dividing|into|three|3|equal|one|ones|or|and|looking|only|just|would|you|call|say|"
@@ -61,6 +63,12 @@ _MIDDLE_FIELD = re.compile(
     r"ninth|box)\b"
 )
 _CORNERS = "['top-left', 'top-right', 'bottom-left', 'bottom-right']"
+
+_WHICH_FIELD = re.compile(
+    r"(?=.*\b(?:nine|9|3 ?x ?3|three by three|grid)\b).*\b(?:which|what) (?:one|box|cell|field|"
+    r"square|"
+    r"ninth|part|region|of (?:them|these|those))\b"
+)
 
 _SIDES = r"(?:sides?|edges?|rims?|borders?|boundar(?:y|ies))"
 _RUNS = (

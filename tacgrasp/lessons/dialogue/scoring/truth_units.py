@@ -26,6 +26,10 @@ def dimension_of(truth: Expression) -> str:
     the force that holds a gram. The root of an area is a length, a force over an area a pressure,
     an area times a depth a volume.
     """
+    if {"pad_width_mm", "pad_height_mm"} <= set(truth.names) and re.search(
+        r"pad_width_mm \* pad_height_mm|pad_height_mm \* pad_width_mm", truth.text
+    ):
+        return "area"
     if set(truth.names) == {"force_n", "area_mm2"} and "/" in truth.text:
         return "pressure"
     if set(truth.names) == {"depth_mm", "area_mm2"} and "/" not in truth.text:
