@@ -427,10 +427,13 @@ _NEEDED = re.compile(
 def _needed(question: str, before: str, meant: Meaning | None) -> str:
     """What force the mass needs that was asked about before."""
     truth = "" if meant is None else truth_of(meant)
-    is_of_mass = "mass_g" in truth or "gram_n" in truth
-    return (
-        "How much force is needed for its mass?" if is_of_mass and _NEEDED.match(question) else ""
-    )
+    is_of_mass = any(name in truth for name in ("mass_g", "gram_n", "holds_g"))
+    is_fate = isinstance(meant, Check) and bool(meant.needed_n)
+    if not (is_of_mass or is_fate) or _NEEDED.match(question) is None:
+        return ""
+    masses = [f for f in _STATED.finditer(before) if dimension_of(f["unit"]) == "mass"]
+    named = f"{masses[-1]['number']} {masses[-1]['unit']}" if masses else "its mass"
+    return f"How much force is needed for {named}?"
 
 
 def _with_another_axis(question: str, before: str) -> str:

@@ -52,7 +52,8 @@ _WEIGHS = re.compile(
     r"(?:(?:how much|what|which|specify|state|give) )?(?:(?:is|does|would) )?(?:the )?"
     r"(?:gravitational|gravity) (?:load|force|pull)(?: (?:acts|act|acting|is|works|on|of|at))*"
     r"(?: (?:the|that|this|declared|told|held|given))* [a-z]+(?: (?:have|feel|exert))?|"
-    r"gravity (?:pulls|acts|tugs) (?:on|at) (?:(?:the|that|this) )?(?:lifted |held |"
+    r"gravity (?:pulls|acts|tugs) (?:on|at) (?:(?:the|that|this) )?(?:declared |given |told |"
+    r"stated |lifted |held |"
     r"gripped )?[a-z]+ "
     r"with (?:how much|what|how many [a-z]+)"
 )

@@ -50,7 +50,8 @@ _PRESSURE = re.compile(
     r"(?:divide|dividing|spread|spreading|distribute|distributing)\b.*\b(?:force|push|squeeze))\b"
 )
 _PER_SQUARE = re.compile(
-    r"\b(?:how much|newtons?) (?:.*\b(?:on|for|over|load|loads|per) (?:each|every|an?|one)|per) "
+    r"\b(?:how much|newtons?) (?:.*\b(?:on|for|over|load|loads|per|does|do) (?:each|every|an?|"
+    r"one)|per) "
     r"(?:square|sq) "
     r"(?:(?P<mm>mm|millimet(?:re|er))|cm|centimet(?:re|er))\b"
 )

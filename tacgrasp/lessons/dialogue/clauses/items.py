@@ -56,6 +56,13 @@ MOST_WORDS = 14
 
 _BAND = "band range window corridor target wanted goal force desired set end edge bound limit of"
 _ITEMS = (
+    _item("depth_word", r"\b(?:depth|indentation|press)\b.*\b(?:class|category|word|grade|label|"
+                        r"level|words)\b|\b(?:class|category|word|grade|label)\b.*"
+                        r"\b(?:depth|indentation|press)\b",
+          "depth indentation press class category word grade label level words in of imprint"),
+    _item("area_word", r"\b(?:area|size|coverage|patch)\b.*\b(?:class|category|word|grade|label|"
+                       r"words)\b|\b(?:class|category|word|grade)\b.*\b(?:area|size|patch)\b",
+          f"{_PADS} area size coverage patch class category word grade label words in of imprint"),
     _item("force_band", r"\b(?:band|range|window|corridor)\b.*\b(?:status|state|verdict|"
                         r"position|standing|"
           r"check|flag)\b|\b(?:status|state|verdict|standing)\b.*\b(?:band|range|window|"
@@ -93,8 +100,10 @@ _ITEMS = (
           "mm µm cm"),
     _item("x", r"\bx\b", "x offset coordinate position value of sideways horizontal", "mm µm cm"),
     _item("y", r"\by\b", "y offset coordinate position value of lengthwise vertical", "mm µm cm"),
-    _item("position", r"\b(?:where|whereabouts|position|place|spot|location|cell|sector)\b",
-          f"{_PADS} where whereabouts position place spot location cell sector touches touching "
+    _item("position", r"\b(?:where|whereabouts|position|place|spot|location|cell|sector|region|"
+                      r"zone)\b",
+          f"{_PADS} where whereabouts position place spot location cell sector region zone touches "
+          "touching "
           "touched sits lies "
           "is located on of presses meets landed pressed presses lands"),
     _item("depth", r"\b(?:depth|deep|indentation|dent|penetration|indented|sunk)\b|"
@@ -212,7 +221,7 @@ def _named(words: str) -> Amount | Which | None:
         if not fits or bool(unit) > bool(item.units):
             continue
         if not item.units:
-            return Which(name=item.name, is_open=True)
+            return Which(name=item.name.removesuffix("_word"), is_open=True)
         usual = QUANTITIES[item.name].unit
         if unit and (unit not in item.units.split() or not can_be_in(item.name, unit)):
             continue

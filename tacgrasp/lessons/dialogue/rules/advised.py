@@ -25,7 +25,8 @@ _UP, _DOWN, _LEFT, _RIGHT = (
     Primitive.MOVE_RIGHT.value,
 )
 _MOVE = (
-    r"(?:mov(?:e|es|ing|ement)|shift(?:s|ing)?|slid(?:e|es|ing)|translat(?:e|ion|ing)|re-?position"
+    r"(?:mov(?:e|es|ed|ing|ement)|shifted|shift(?:s|ing)?|slid(?:e|es|ing)|translat(?:e|ion|ing)|"
+    r"re-?position"
     r"(?:ing)?|re-?cent(?:er|re|ring|ering)|nudg(?:e|es|ing)|go(?:ing)?)"
 )
 _GRIP = r"(?:grip|squeeze|press|push|pinch|hold|clamp|grasp)(?:p?ing)?"
@@ -80,7 +81,10 @@ _STEPS: tuple[tuple[re.Pattern[str], tuple[str, ...]], ...] = tuple(
 
 _ADVICE = re.compile(
     r"\b(?:advi[sc]e[ds]?|advising|recommend\w*|suggest\w*|proposed?|your (?:tip|counsel|verdict)|"
-    r"next (?:step|move|action)|want me to|tell(?:ing)? me to|have me)\b"
+    r"next (?:step|move|action|command)|want (?:me|us|it|the \w+) (?:to )?|tell(?:ing)? me to|"
+    r"have me(?: do)?|(?:do i )?take it(?: that)? you want|(?:system|policy|robot|controller)(?: "
+    r"now)? "
+    r"(?:call|calls|ask|asks|want|wants)(?: for)?|policy output|call for)\b"
 )
 _ASKS_YES = re.compile(rf"{AUXILIARY}(?:n['’]?t)?\b")
 _DENIED = re.compile(
@@ -120,8 +124,11 @@ def advised(question: str) -> Calculated | None:
     """What a question asks of the advice: yes or no, or one of two steps; None of others."""
     words = question.lower().strip()
     words = _STATED.sub(r"is \g<what>", words)
+    words = _EQUALS.sub("is the next step ", words)
     if _ASKS_YES.match(words) and _ADVICE.search(words) and " or no" not in words:
         return is_step_advised(words)
+    if ways := _ways(words):
+        return ways
     if (found := _CHOICE.fullmatch(words)) is None:
         return None
     first, second = (_one_of(found[name]) for name in ("first", "second"))
@@ -130,6 +137,25 @@ def advised(question: str) -> Calculated | None:
     told: Mapping[str, str] = {found["first"].strip(): first, found["second"].strip(): second}
     branches = " else ".join(f"'{word}' if {condition}" for word, condition in told.items())
     return Calculated(truth=f"{branches} else '{found['else']}'", unit=None)
+
+
+_WAYS = re.compile(
+    r"(?=.*\b(?:next|now|should|must|advise\w*|recommend\w*|travel|move|moved|shift|shifted|go)\b)"
+    r".*?\b(?P<a>left|right|up|down),? (?P<b>left|right|up|down),? (?P<c>left|right|up|down),? "
+    r"(?:or )?(?P<d>left|right|up|down)(?:,? or (?P<none>[a-z ]+?))?(?: next| now)?[?.! ]*"
+)
+_BY_WORD = {"left": _LEFT, "right": _RIGHT, "up": _UP, "down": _DOWN}
+
+
+def _ways(words: str) -> Calculated | None:
+    """The way to move, of all four: 'left, right, up, down or nowhere?'."""
+    found = _WAYS.fullmatch(words)
+    named = [found[name] for name in "abcd"] if found else []
+    if found is None or len(set(named)) < len(_BY_WORD):
+        return None
+    none = found["none"] or "none"
+    branches = " else ".join(f"'{way}' if action == '{_BY_WORD[way]}'" for way in named)
+    return Calculated(truth=f"{branches} else '{none}'", unit=None)
 
 
 def step_asked(question: str) -> Calculated | None:
@@ -142,10 +168,11 @@ def step_asked(question: str) -> Calculated | None:
     return Calculated(truth=condition, unit=None) if is_step else None
 
 
+_EQUALS = re.compile(r"^(?:the )?(?:next (?:step|move|action)|policy output) (?:=|is|:) ?")
 _STATED = re.compile(r"^(?:so )?(?P<what>(?:your|the) (?:advice|recommendation|tip) is) ")
 _SHOULD = re.compile(
     r"(?:and |so |then )*(?:should|shall|must|do|does|need) (?:i|we|it|the (?:gripper|robot|hand|"
-    r"finger))(?: (?:have|need|ought) to)? "
+    r"finger))(?: (?:have|need|ought) to)? (?:be )?"
 )
 
 

@@ -18,7 +18,10 @@ from tacgrasp.lessons.dialogue.plainer import AUXILIARY
 _ONE_OF = re.compile(
     r"\b(?:one|either|some) (?:of|from|among) (?:these|those|the|them|this)?\b|\bone of\b|"
     r"\bamong\b|\b(?:classified|categori[sz]ed|labelled|labeled|recogni[sz]ed|registered) as\b|"
-    r"\b(?:belong|belongs|fall|falls|count|counts|qualif\w+) (?:to|into|in|as|among)\b|\banything\b"
+    r"\b(?:belong|belongs|fall|falls|count|counts|qualif\w+) (?:to|into|in|as|among)\b|"
+    r"\banything\b|\b(?:do|can) (?:you|we) (?:feel|sense|detect|have)\b|"
+    r"\bwould (?:you|one) (?:class|call|describe|rate)\b|\bdescribed (?:by|as)\b|"
+    r"\beither of the words\b"
 )
 _CHOOSES = re.compile(
     r"\b(?:which|what|pick|choose|name|say|tell|neither|none|something else|other|not|if|than)\b"
@@ -34,7 +37,8 @@ def member_of(question: str) -> Calculated | None:
     words = " ".join(re.findall(r"[a-z]+(?:-[a-z]+)?|\d+", question.lower()))
     if not _ASKS_YES.match(words) or not _ONE_OF.search(words):
         return None
-    if _CHOOSES.search(words) or _NUMBER.search(words) or " or " not in f" {words} ":
+    is_joined = " or " in words or "either of" in words
+    if _CHOOSES.search(words) or _NUMBER.search(words) or not is_joined:
         return None
     for name in ("shape", "texture"):
         named = [each for each in CLASSES[name] if re.search(rf"\b{each}s?\b", words)]

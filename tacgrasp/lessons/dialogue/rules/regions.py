@@ -54,6 +54,9 @@ _QUADRANT = re.compile(
     r"(?=.*\b(?P<bottom>lower|bottom)[ -]left\b)(?=.*\b(?:lower|bottom)[ -]right\b)"
     r"(?!.*\bor (?:the |in the )?(?:middle|cent(?:er|re)|neither|none)\b)(?!.*\bcorner\b)"
 )
+_ONE_QUADRANT = re.compile(
+    r"\b(?P<y>upper|top|lower|bottom) (?P<x>left|right) (?:quadrant|quarter)\b"
+)
 _CORNER_FIELD = re.compile(
     r"\b(?:one|any) of (?:the |its )?(?:four |4 )?corner (?:fields?|regions?|cells?|"
     r"squares?|zones?|areas?)\b|\bin (?:a|any) corner (?:field|region|cell|square|zone|area)\b"
@@ -74,10 +77,16 @@ _SIDES = r"(?:sides?|edges?|rims?|borders?|boundar(?:y|ies))"
 _RUNS = (
     r"\b(?:run|runs|ran|running|cross|crosses|crossing|cut|cuts|clip|clips|clipped|leave|leaves|"
     r"leaving|lose|loses|hang|hangs|go|goes|going|spill|spills|overlap|overlaps|off|over|reach|"
-    r"reaches|past|touch|touches|extend|extends|exceed|exceeds|stick|sticks|truncat\w+)\b"
+    r"reaches|past|touch|touches|extend|extends|exceed|exceeds|stick|sticks|overrun\w*|"
+    r"truncat\w+)\b"
 )
 _HOW_MANY = re.compile(
     rf"\bhow many (?:of (?:the |its |our )?)?(?:(?:four|4|pad|pad's|gel|sensor) )*{_SIDES}\b"
+)
+_FOUR = ("left", "right", "top", "bottom")
+_NUMBER_OF = re.compile(rf"\bnumber of (?:(?:the|pad|cut|its) )*{_SIDES}\b")
+_EXACTLY = re.compile(
+    rf"\b(?:exactly|just|only) (?:on )?(?P<count>one|a single|two|three) {_SIDES}\b"
 )
 _OPPOSITE = re.compile(rf"\b(?:two|both|any) opposite {_SIDES}\b")
 _BOTH_OR_NEITHER = re.compile(
@@ -98,7 +107,8 @@ def of_region(question: str) -> Calculated | None:
     truth = _thirds(words) or _quadrants(words) or _sides(words)
     if not truth and _ASKS_YES.search(words) and " or " not in words:
         truth = _third(words) or _field(words)
-    return Calculated(truth=truth, unit=None if "+" not in truth else "") if truth else None
+    is_count = "+" in truth and "==" not in truth
+    return Calculated(truth=truth, unit="" if is_count else None) if truth else None
 
 
 def _thirds(words: str) -> str:
@@ -142,6 +152,9 @@ def _quadrants(words: str) -> str:
 
 def _field(words: str) -> str:
     """Whether it is in a corner field, or that in the middle."""
+    if quarter := _ONE_QUADRANT.search(words.replace("-", " ")):
+        y = ">" if quarter["y"] in ("upper", "top") else "<"
+        return f"x_mm {'<' if quarter['x'] == 'left' else '>'} 0 and y_mm {y} 0"
     if _CORNER_FIELD.search(words):
         return f"position in {_CORNERS}"
     return "position == 'centered'" if _MIDDLE_FIELD.search(words) else ""
@@ -151,8 +164,12 @@ def _sides(words: str) -> str:
     """How many sides of the pad cut it, whether opposite ones do, and which of two."""
     if not re.search(_RUNS, words):
         return ""
-    if _HOW_MANY.search(words):
-        return "cut_left + cut_right + cut_top + cut_bottom"
+    if _HOW_MANY.search(words) or _NUMBER_OF.search(words):
+        named = [side for side in _FOUR if re.search(rf"\b{side}\b", words)]
+        return " + ".join(f"cut_{side}" for side in named or _FOUR)
+    if (exactly := _EXACTLY.search(words)) and not re.search(r"\b(?:newton|mm|percent)", words):
+        count = {"one": "1", "a single": "1", "two": "2", "three": "3"}[exactly["count"]]
+        return f"cut_left + cut_right + cut_top + cut_bottom == {count}"
     if _OPPOSITE.search(words):
         return "(cut_left and cut_right) or (cut_top and cut_bottom)"
     if found := _BOTH_OR_NEITHER.search(words):
