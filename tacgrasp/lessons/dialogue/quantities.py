@@ -252,7 +252,8 @@ def amount_text(
         is_signed: Whether a plus is shown, whatever the quantity.
     """
     quantity = QUANTITIES[name]
-    decimals_shown = quantity.decimals + (name in GIVEN and _is_coarse(value, quantity.decimals))
+    largest = {"holds": 0.03, "spare": 0.03}.get(name, 0.01 if name in GIVEN else math.inf)
+    decimals_shown = quantity.decimals + _is_coarse(value, quantity.decimals, largest)
     sign = "+" if is_signed or quantity.is_signed else ""
     if unit == "%":
         return f"{sign if value >= 0 else '-'}{percent_text(abs(value))} %"
@@ -263,7 +264,8 @@ def amount_text(
     converted = _in_unit(quantity, value if UNITS[unit].dimension == "area" else shown, unit, scene)
     size = 1 / _in_unit(quantity, 1.0, unit, scene)
     if unit in ("cm²", "in²"):
-        decimals = 2 if abs(converted) >= 0.1 else 3
+        size_of = math.floor(math.log10(abs(converted))) if converted else 0
+        decimals = 2 if size_of >= -1 else 1 - size_of
     elif size > 1 and unit != "mm²":
         decimals = decimals_shown + math.ceil(math.log10(size) - 1e-9)
     else:
@@ -271,9 +273,9 @@ def amount_text(
     return f"{converted:{sign}.{decimals}f} {written}"
 
 
-def _is_coarse(value: float, decimals: int) -> bool:
-    """Whether rounding changes a value by more than a hundredth of it."""
-    return abs(round(value, decimals) - value) > 0.01 * abs(value)
+def _is_coarse(value: float, decimals: int, largest: float) -> bool:
+    """Whether rounding changes a value by more than a fraction of it."""
+    return abs(round(value, decimals) - value) > largest * abs(value)
 
 
 def value_text(value: float, unit: str) -> str:

@@ -19,18 +19,20 @@ from tacgrasp.lessons.dialogue.facts import FACT_OF
 from tacgrasp.lessons.dialogue.meaning import (
     FACTS,
     Amount,
+    AnswerKind,
     Calculated,
     Check,
     Meaning,
     Which,
     Why,
+    kind_of,
     truth_of,
 )
 from tacgrasp.lessons.dialogue.plainer import in_words
 from tacgrasp.lessons.dialogue.quantities import GRAVITY_N_PER_G, QUANTITIES, UNITS, unit_of_name
 from tacgrasp.lessons.dialogue.rules.advised import is_step_advised
 from tacgrasp.lessons.turns.leads import without_lead
-from tacgrasp.lessons.turns.rewriting import unit_symbol
+from tacgrasp.lessons.turns.rewriting import supposed_in, unit_symbol
 from tacgrasp.lessons.understanding import understood_by_grammar
 
 _BY_HOW_MUCH = re.compile(
@@ -56,7 +58,8 @@ _IN_UNIT = re.compile(
     r"(?:(?:how (?:much|many)|what(?: (?:weight|force|mass|length))?)"
     r"(?:(?: is|['’]s| would)(?: (?:it|that|this))?(?: be)?)?[, ]+)?"
     r"(?:(?:i (?:wanted|want|meant|mean|need)|give me|make (?:it|that)|say it) )?"
-    r"(?:in |as )?(?:plain )?(?P<unit>[^\d\s?.!,]+(?: [a-z]+)?)(?: of (?:weight|force))?"
+    r"(?:as an? (?:weight|force|mass) )?(?:in |as )?(?:plain )?(?P<unit>[^\d\s?.!,]+(?: "
+    r"[a-z]+)?)(?: of (?:weight|force))?"
     r"(?: (?:is|would) (?:it|that|this)(?: be)?)?(?:, not \w+)?[?.! ]*",
     re.I,
 )
@@ -177,34 +180,61 @@ _HEAVIER = re.compile(
     r"(?:for )?one (?P<one>twice|half) as heavy",
     re.I,
 )
+_SEVERAL = re.compile(
+    r"(?:(?:would|will|does|do|can) (?:it|that|the grip|this|they|we) (?:still |also )?(?:hold|"
+    r"do|work|"
+    r"suffice|stay|carry|be enough)(?: for| if there were)? |if there were |what about |how "
+    r"about |and )?"
+    r"(?P<count>two|three|four|five|\d)(?: of (?:them|these|those|it))?(?: stuck together| "
+    r"together| "
+    r"at once| instead)?",
+    re.I,
+)
+_HOLDING = re.compile(r"\b(?:hold|do|work|suffice|stay|carry|enough)\b", re.I)
+_COUNTS = {"two": 2, "three": 3, "four": 4, "five": 5}
 _SO_HEAVY = {"twice": 2.0, "double": 2.0, "half": 0.5, "three times": 3.0, "ten times": 10.0}
 
 
 def of_another_mass(question: str, asked: Meaning | None) -> Calculated | None:
     """What was asked before, of an object that is twice as heavy; None of other questions."""
-    found = _HEAVIER.fullmatch(without_lead(question).rstrip("?.! "))
+    words = without_lead(question).rstrip("?.! ")
+    found, several = _HEAVIER.fullmatch(words), _SEVERAL.fullmatch(words)
     truth = truth_of(asked) if isinstance(asked, Amount | Check | Calculated) else ""
-    if found is None or "mass_g" not in truth:
+    if (found is None and several is None) or "mass_g" not in truth:
         return None
-    times = (found["times"] or found["one"]).lower()
-    factor = _SO_HEAVY.get(times) or float(times.split()[0])
-    unit = None if isinstance(asked, Check) or asked is None else asked.unit
+    if found:
+        times = (found["times"] or found["one"]).lower()
+        factor = _SO_HEAVY.get(times) or float(times.split()[0])
+    else:
+        assert several is not None
+        count = several["count"].lower()
+        factor = float(_COUNTS.get(count) or count)
+    if several and _HOLDING.search(words) and kind_of(asked) is not AnswerKind.YES_NO:
+        return Calculated(truth=f"force_n >= gram_n * {factor:g} * mass_g", unit=None)
+    unit = asked.unit if isinstance(asked, Amount | Calculated) else None
     return Calculated(truth=re.sub(r"\bmass_g\b", f"({factor:g} * mass_g)", truth), unit=unit)
 
 
 _WITH_FORCE = re.compile(
     r"(?:if (?:i|we|you) )?(?:with |at |assume |suppose |assuming )?(?:(?:add|adding|squeeze|press|"
-    r"grip) )?(?P<number>\d+(?:\.\d+)?) ?(?P<unit>N|newtons?|mN|millinewtons?) "
+    r"grip) )?(?P<number>\d+(?:\.\d+)?)(?: ?(?P<unit>N|newtons?|mN|millinewtons?))? "
     r"(?P<way>more|less|extra|harder|softer|on top|off|added|fewer)"
     r"(?: (?:force|grip|than(?: (?:now|that|measured|at present))?|squeeze))*(?:[, ]+instead)?",
     re.I,
 )
 _TIMES_FORCE = re.compile(
-    r"(?:with |at |if (?:i|we) (?:had|used|applied) )?(?P<times>twice|double|half|three times) "
-    r"(?:the|that|this|our|my) (?:force|grip|squeeze)",
+    r"(?:with |at |if (?:i|we) (?:had|used|applied) )?(?:squeezing |gripping |pressing )?"
+    r"(?P<times>twice|double|half|three times) "
+    r"(?:(?:the|that|this|our|my) (?:force|grip|squeeze)|as (?:hard|firmly|strongly|tight))",
     re.I,
 )
 _FEWER = ("less", "softer", "off", "fewer")
+_TAKING = re.compile(
+    r"(?:what (?:if|about) |how about |with )?(?:(?:i|we) )?(?:taking|take|easing|ease|letting|let|"
+    r"backing|back)(?: off)? (?P<number>\d+(?:\.\d+)?) ?(?P<unit>N|newtons?|mN|millinewtons?)"
+    r"(?: off| away)?(?:[, ]+instead)?",
+    re.I,
+)
 _LETTING = re.compile(r"if (?:i|we|you) .+", re.I)
 MADE = {"twice": "2", "double": "2", "half": "0.5", "three times": "3"}
 
@@ -213,8 +243,11 @@ def changed_force(question: str) -> str:
     """The force that a follow-up supposes, as an expression: 'and with 0.4 N less'; '' of none."""
     words = in_words(without_lead(question)).strip(" ?.!")
     if found := _WITH_FORCE.fullmatch(words):
-        newtons = float(found["number"]) * UNITS[unit_symbol(found["unit"])].size
+        newtons = float(found["number"]) * UNITS[unit_symbol(found["unit"] or "N")].size
         return f"(force_n {'-' if found['way'].lower() in _FEWER else '+'} {newtons:.6g})"
+    if found := _TAKING.fullmatch(words):
+        newtons = float(found["number"]) * UNITS[unit_symbol(found["unit"])].size
+        return f"(force_n - {newtons:.6g})"
     if found := _TIMES_FORCE.fullmatch(words):
         return f"({MADE[found['times'].lower()]} * force_n)"
     if _LETTING.fullmatch(words) and (read := understood_by_grammar(f"What {words}?")):
@@ -222,6 +255,42 @@ def changed_force(question: str) -> str:
         names = Expression(truth_of(read.meaning)).names if is_force else ()
         return f"({truth_of(read.meaning)})" if names == ("force_n",) else ""
     return ""
+
+
+def unsupposed(asked: Meaning, text: str) -> Meaning | None:
+    """What a question asks under a supposition, of the force that is felt; None where it has none.
+
+    Args:
+        asked: What it asks.
+        text: Its words: 'if I add 0.3 N, are we over the limit?'.
+    """
+    supposed = supposed_in(text)
+    force = changed_force(supposed[0]).strip("()") if supposed else ""
+    if not force or not isinstance(asked, Calculated) or force not in asked.truth:
+        return None
+    return replace(asked, truth=asked.truth.replace(force, "force_n"))
+
+
+_BOTH = re.compile(
+    r"(?:are |is |do |does )?(?P<all>both|all|the two|all of (?:them|those|these)|both of "
+    r"(?:them|those|"
+    r"these))(?: (?:conditions|things|checks))?(?: (?:true|met|hold|holds|fulfilled|satisfied|"
+    r"fine|ok|"
+    r"okay|the case|given))?|(?:is |are )?(?:at least one|either|one)(?: of (?:them|those|these|"
+    r"the two|"
+    r"those two))?(?: (?:true|met|fulfilled|the case))?|(?P<none>neither)(?: of (?:them|those))?",
+    re.I,
+)
+
+
+def of_both(question: str, last: Meaning | None, earlier: Meaning | None) -> Calculated | None:
+    """Whether the last two conditions hold, both or one of them; None of other questions."""
+    found = _BOTH.fullmatch(without_lead(question).rstrip("?.! "))
+    if found is None or last is None or earlier is None:
+        return None
+    joint = " and " if found["all"] else " or "
+    truth = joint.join(f"({truth_of(each)})" for each in (earlier, last))
+    return Calculated(truth=f"not ({truth})" if found["none"] else truth, unit=None)
 
 
 def of_changed_force(force: str, asked: Meaning | None) -> Calculated | None:

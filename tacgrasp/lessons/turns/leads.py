@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 _LEAD = re.compile(
-    r"\A(?:(?:and|but|or|so|ok|okay|well|then|now|no|yes|hm+|ah|oh|right|cool|nice|good|great|"
+    r"\A(?:(?:and|n|but|or|so|ok|okay|well|then|now|no|yes|hm+|ah|oh|right|cool|nice|good|great|"
     r"fine|thanks|thank you|sorry|fair enough|alright|all right|got it|i see|interesting|"
     r"just|also|next|still|actually|wait|hang on|hold on|back to (?:the \w+|mine|it))"
     r"(?:[,.:;!]+ *| +-+ +| +)(?=\S))+",

@@ -85,6 +85,10 @@ _HAVE_IT = re.compile(
 """'Do we have that much already?', after a force that is needed or agreed."""
 
 
+_OF_GRIP = re.compile(r"\b(?:it|this)\b.*\b(?:hold|lift|carry|slip|drop)\b")
+"""'Is it enough to hold it?', which is about the grip and not about a number."""
+
+
 def of_number(question: str, about: Meaning | None, earlier: Meaning | None) -> Calculated | None:
     """What a follow-up asks of the number before it; None where it asks for something else.
 
@@ -121,7 +125,7 @@ def of_number(question: str, about: Meaning | None, earlier: Meaning | None) -> 
         share = f"(1 {sign} {float(found['share']):.6g} / 100)"
         truth = f"{share} * {_felt(term, earlier).factor}"
         return Calculated(truth=truth, unit=unit)
-    if _POINTS.search(core) is None:
+    if _POINTS.search(core) is None or _OF_GRIP.search(core):
         return None
     if re.search(r"\binstead\b", question, re.I):
         term = _felt(term, earlier)

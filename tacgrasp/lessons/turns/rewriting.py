@@ -31,7 +31,7 @@ from tacgrasp.lessons.dialogue.quantities import UNITS
 from tacgrasp.lessons.turns.leads import without_lead
 
 _LEAD = (
-    r"(?:(?:and|but|or|so|ok|okay|well|then|now|no|sorry|what about|how about|i meant?|"
+    r"(?:(?:and|n|but|or|so|ok|okay|well|then|now|no|sorry|what about|how about|i meant?|"
     r"make (?:it|that))[, ]+)*"
 )
 _END = (
@@ -64,7 +64,8 @@ _STATED = re.compile(rf"(?<![\w.,]){_NUMBER}(?!\w|\.\d)", re.I)
 _ANOTHER_NUMBER = re.compile(
     rf"{_LEAD}(?:if (?:i|we|you) )?(?:(?:add|added|by|with|for|at|to|of|over|above|below|under|"
     rf"(?:(?:more|less|deeper|higher|lower) )?than|it's|it is|it were|it weighs|only|a|an|about|"
-    rf"one|full|whole|even)\s+)*{_NUMBER}(?: (?:added|on top|off))?{_END}",
+    rf"one|full|whole|even)\s+)*{_NUMBER}"
+    rf"(?: (?:added|on top|off|one|1|object|part|piece|thing))?{_END}",
     re.I,
 )
 
@@ -95,7 +96,7 @@ _OPPOSITE = {
 _EDGE = r"(?: one| edge| side| rim| border| end| third| half| row| column)"
 _ANOTHER_SIDE = re.compile(
     rf"{_LEAD}(?:(?:the )?same(?: \w+)? (?:for|at|to|from) )?(?:(?:up|down) )?"
-    rf"(?:top,? )?(?:on |at |to |from |off |over |towards? )?(?:the )?"
+    rf"(?:top,? )?(?:on |at |to |from |off |over |of |towards? )?(?:the )?"
     rf"(?P<side>{'|'.join(_SIDES)}){_EDGE}?"
     rf"(?: too| as well)?{_END}",
     re.I,
@@ -182,7 +183,7 @@ _MOST_WORDS = 4
 """Longest follow-up that begins with a preposition and no 'and' [words]. Our choice."""
 
 _OBJECT = re.compile(
-    r"\b(?P<before>over|above|below|under|in|within|inside|outside|to|of|near|past|beyond|than|"
+    r"\b(?P<before>over|for|above|below|under|in|within|inside|outside|to|of|near|past|beyond|than|"
     r"exceed(?:ing|ed)?|reach(?:ing|ed)?|break(?:ing)?|pass(?:ed|ing)?|at|from) "
     r"(?P<pronoun>it\b(?! \w+s\b)|(?:that|this)\b(?! \w))",
     re.I,
@@ -215,6 +216,7 @@ def rewritten(question: str, before: str, meant: Meaning | None, noun: str) -> I
         _claimed(question, before),
         _stated(question),
         _of_that_quantity(question, meant),
+        _ENOUGH.sub(r"\g<verb> the grip strong enough", question),
         _still_under(question, noun),
         _figure_of(question, meant),
         _which_then(question, meant),
@@ -230,7 +232,9 @@ def rewritten(question: str, before: str, meant: Meaning | None, noun: str) -> I
         _of_named_class(question, meant),
         _of_a_mass(question, before, meant),
         _named_alone(question),
+        _moved_otherwise(question, before),
         with_noun(question, noun),
+        _HOW_FAR_FROM.sub("how far is the force from ", with_noun(question, noun)),
         _completed(question, before),
     ):
         if text and text != question:
@@ -314,6 +318,13 @@ _FIGURE = re.compile(
 )
 
 
+_ENOUGH = re.compile(
+    r"(?P<verb>\b(?:is|would)\b) (?:it|that|this) (?:be )?(?:strong |firm )?enough(?= to (?:hold|"
+    r"lift|carry))",
+    re.I,
+)
+
+
 def _stated(question: str) -> str:
     """'So that's in the middle row?' as a question."""
     found = _STATED_SO.fullmatch(question)
@@ -334,7 +345,7 @@ def _still_under(question: str, noun: str) -> str:
     found = _STILL_UNDER.fullmatch(question)
     if found is None:
         return ""
-    return f"{found['if']}, is the force {found['side']} {noun or 'the band'}?"
+    return f"{found['if']}, is the force {found['side']} {noun}?" if noun else ""
 
 
 def _figure_of(question: str, meant: Meaning | None) -> str:
@@ -356,7 +367,7 @@ def _which_then(question: str, meant: Meaning | None) -> str:
     name = names.get(shown[0], "") if len(shown) == 1 else ""
     if isinstance(meant, Calculated) and meant.unit is None:
         told = names_of(meant)
-        name = told[0] if len(told) == 1 and told[0] in ("shape", "texture") else ""
+        name = told[0] if len(told) == 1 and told[0] in ("shape", "texture", "position") else ""
     if not name or _WHICH_THEN.fullmatch(question) is None:
         return ""
     if name in ("depth", "area"):
@@ -368,12 +379,22 @@ _OF_PAD = re.compile(r"\b(?:its|the|(?P<bare>total|whole|full))(?P<size> (?:(?:w
                      r"entire) )?(?:width|height|area|size)| area)\b", re.I)  # fmt: skip
 
 
+_WHOLE_AREA = re.compile(
+    r"what area (?:does|do) (?:that|they|these|it) make|the whole pad is(?= how)|what (?:is|"
+    r"does) (?:that|it)"
+    r"(?: make)? (?:as an area|in area)",
+    re.I,
+)
+
+
 def _about_the_pad(question: str, meant: Meaning | None) -> str:
     """A question about the pad's size, where that was asked for before."""
     names = names_of(meant) if isinstance(meant, Calculated) else ()
     if not names or not set(names) <= {"pad_width_mm", "pad_height_mm"}:
         return ""
     words = without_lead(question)
+    if _WHOLE_AREA.match(words):
+        return _WHOLE_AREA.sub("the pad's total area", words)
     if re.fullmatch(r"(?:height|width|area)[?.! ]*", words, re.I):
         return f"the pad's {'total ' if words.lower().startswith('area') else ''}{words}"
     if re.fullmatch(r"how (?:high|wide|tall|broad)[?.! ]*", words, re.I):
@@ -396,6 +417,7 @@ def _about_the_band(question: str, meant: Meaning | None) -> Iterator[str]:
     )
     own = re.sub(r"\bof (?:it|them)\b", "of the band", own)
     yield own
+    yield _HOW_FAR_FROM.sub("how far is the force from ", own)
     yield _ARE_WE.sub("Is the force", own)
     if _IN.search(question):
         yield _IN.sub("in the band", without_lead(question))
@@ -407,6 +429,11 @@ _OWN_END = re.compile(
     r"(?: of (?:it|that|this)\b)?(?! of)|(?= or )|(?=[?.! ]*$))",
     re.I,
 )
+_HOW_FAR_FROM = re.compile(
+    r"^(?:(?:and|so|ok)[, ]+)*how (?:far|much|many newtons)(?: (?:are we|is that|is it|am i))?"
+    r"(?: away)? (?:from|off|to) ",
+    re.I,
+)
 _PLAIN_END = {"high": "upper", "low": "lower", "top": "upper", "bottom": "lower"}
 _ARE_WE = re.compile(r"^(?:am i|are we)\b", re.I)
 _IN = re.compile(r"(?<=\w )(?:in|inside|within)(?: (?:it|that|there))?(?=[?.! ]*$)", re.I)
@@ -414,10 +441,13 @@ _IN = re.compile(r"(?<=\w )(?:in|inside|within)(?: (?:it|that|there))?(?=[?.! ]*
 
 
 _NEEDED = re.compile(
-    r"(?=.*\b(?:force|grip|squeeze|newtons?|hard|strong|strongly)\b)"
+    r"(?=.*\b(?:force|grip|squeeze|newtons?|hard|strong|strongly|(?:the )?(?:least|minimum)"
+    r"(?: that)? (?:i|we|you|it))\b)"
+    r"(?!.*\b(?:gravity|pull|pulls|weigh|weighs|push|apply|applying|pressing|is it|is that|are "
+    r"we|have|"
+    r"limit|heaviest|grams?|still|more|less|now)\b)"
     r"(?=.*\b(?:needs?|needed|requires?|required|minimum|min|least|enough|takes?|surely|sure|"
-    r"safely|do|holds?)\b)(?!.*\b(?:is it|is that|are we|have|limit|heaviest|grams?|still|more|"
-    r"less)\b)"
+    r"safely|do|holds?)\b)"
     r"(?:(?:and|so|but|then)[, ]+)*(?:(?:with )?how (?:much|many|strong|hard)|what|which|"
     r"(?:the )?(?:minimum|least|needed|required|grip|force))\b.*",
     re.I,
@@ -467,6 +497,22 @@ _ANOTHER_THING = re.compile(
     re.I,
 )
 """'And an ostrich egg, 1400 g?'"""
+
+
+_MOVED = re.compile(
+    r"\d+(?:\.\d+)? ?(?:mm|millimet(?:re|er)s?) (?:(?:to the )?(?:left|right)|up|down|upwards?|"
+    r"downwards?)",
+    re.I,
+)
+
+
+def _moved_otherwise(question: str, before: str) -> str:
+    """The question before, of another shift: 'and 3 mm to the left instead?'."""
+    other = re.fullmatch(rf"{_LEAD}(?:by )?(?P<shift>{_MOVED.pattern}){_END}", question, re.I)
+    found = _MOVED.search(before)
+    if other is None or found is None:
+        return ""
+    return f"{before[: found.start()]}{other['shift']}{before[found.end() :]}"
 
 
 def _of_a_mass(question: str, before: str, meant: Meaning | None) -> str:
@@ -574,9 +620,9 @@ def noun_of(meant: Meaning) -> str:
     if isinstance(meant, Several) and all(isinstance(part, Amount) for part in meant.parts):
         names = {part.quantity for part in meant.parts if isinstance(part, Amount)}
         return "the band" if names == {"band_low", "band_high"} else ""
-    if isinstance(meant, Amount):
-        return _CALLED.get(meant.quantity, "")
-    if not isinstance(meant, Check | Calculated):
+    if isinstance(meant, Amount) and meant.quantity in _CALLED:
+        return _CALLED[meant.quantity]
+    if not isinstance(meant, Amount | Check | Calculated):
         return ""
     names = {name for name in names_of(meant) if name in _COMPARED_WITH}
     return _COMPARED_WITH[names.pop()] if len(names) == 1 else ""

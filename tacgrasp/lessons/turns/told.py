@@ -85,7 +85,7 @@ class Told:
 
 
 _CORRECTED = re.compile(
-    rf"(?:(?:no|sorry|actually|wait|ok|now|i mean|i meant)[,:]? )*(?:"
+    rf"(?:(?:no|oh|sorry|actually|wait|ok|now|i mean|i meant)[,:]? )*(?:"
     rf"(?:make|set|let us make|change) (?:it|that|this)(?: to)?|(?:i mean|i meant)) "
     rf"(?P<value>{_N.format('first')}.*?)"
     r"(?:,? (?:instead|then|please|now))*[.!]?",
@@ -135,6 +135,14 @@ _ASKS = re.compile(
 )
 """What begins a question, an order or a supposition, and no statement."""
 
+_STATES = re.compile(
+    r"(?:\b(?:is|are|was|weighs?|weighed|runs?|has|have|had|got|handling|holding|gripping|took|"
+    r"wants?|need|needs|set|each|apiece|says?|told|cracks?|breaks?|bruises?|crush\w*|max|limit|"
+    r"never|pretend|imagine|suppose|recipe)\b|['’](?:s|re|ve)\b)",
+    re.I,
+)
+"""What a statement has, and a question without its mark has not: 'grip strong enough for 25 g'."""
+
 _SUPPOSES = re.compile(r"(?:(?:and|now|so)[, ]+)*(?:suppose|supposing|say|imagine)\b", re.I)
 _IS_MASS = re.compile(
     r"(?<![\w.,])(?P<number>\d+(?:[.,]\d+)?)[ -]?(?P<unit>g|grams?|gr|kg|kilos?|kilograms?|"
@@ -152,7 +160,10 @@ _IS_FORCE = re.compile(
 )
 _BOUNDS = re.compile(
     r"\b(?:limit\w*|max\w*|never|no more|not more|(?:don['’]?t|do not|must not|mustn['’]?t|"
-    r"can['’]?t) (?:\w+ ){0,3}?(?:more|exceed|above|over|beyond)|at most|ceiling|cap|not above|"
+    r"can['’]?t) (?:\w+ ){0,3}?(?:more|exceed|above|over|beyond)|at most|ceiling|cap|"
+    r"(?:cracks?|breaks?|bruises?|crush\w*|bursts?|splits?|gives way) (?:above|over|at|beyond|"
+    r"from|past)|"
+    r"not above|"
     r"not over|"
     r"not exceed\w*|stay (?:below|under)|keep (?:it )?(?:below|under))\b",
     re.I,
@@ -172,6 +183,8 @@ def _told_freely(text: str) -> tuple[Told, str] | None:
     asked = " ".join(each for each in sentences if each not in stated)
     words = " ".join(stated)
     if not stated or sentences[: len(stated)] != stated:
+        return None
+    if not _STATES.search(words):
         return None
     told = Told(is_supposed=bool(_SUPPOSES.match(words) and asked))
     masses, band = list(_IS_MASS.finditer(words)), _IS_BAND.search(words)

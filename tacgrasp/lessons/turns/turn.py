@@ -24,9 +24,11 @@ from tacgrasp.lessons.turns.follow_ups import (
     leaves_unit_out,
     of_advice,
     of_another_mass,
+    of_both,
     of_changed_force,
     of_supposed_force,
     reason_of,
+    unsupposed,
     with_quantity_of,
 )
 from tacgrasp.lessons.turns.leads import without_lead
@@ -84,6 +86,8 @@ class Turn:
         numbered: The question that asked for it, as it stands alone; ''.
         earlier: The number before that; None likewise.
         of_felt: What was last asked of the force that is felt, not a supposed one; None likewise.
+        condition: What was last asked with a yes or no; None before the first.
+        earlier_condition: The same before that; None likewise.
         noun: What a pronoun may stand for: 'the limit', where that was asked for; ''.
         told: What the question tells besides: a mass, a band or a limit; None where it tells none.
     """
@@ -95,6 +99,8 @@ class Turn:
     numbered: str = ""
     earlier: Meaning | None = None
     of_felt: Meaning | None = None
+    condition: Meaning | None = None
+    earlier_condition: Meaning | None = None
     noun: str = ""
     told: Told | None = None
 
@@ -118,11 +124,17 @@ class Turn:
             return replace(self, read=read, text=self.text or text, told=None)
         about = self.about if isinstance(read.meaning, Why | Description) else read.meaning
         noun = noun_of(read.meaning) or ("" if is_whole else self.noun)
-        of_felt = self.of_felt if is_supposed or supposed_in(text) else about
+        if is_supposed:
+            of_felt = self.of_felt
+        else:
+            of_felt = unsupposed(read.meaning, text) if supposed_in(text) else about
         turn = replace(
             self, read=read, text=text, about=about, of_felt=of_felt, noun=noun, told=None
         )
-        if kind_of(read.meaning) is not AnswerKind.NUMBER or read.meaning == self.number:
+        kind = kind_of(read.meaning)
+        if kind is AnswerKind.YES_NO and read.meaning != self.condition:
+            return replace(turn, condition=read.meaning, earlier_condition=self.condition)
+        if kind is not AnswerKind.NUMBER or read.meaning == self.number:
             return turn
         return replace(turn, number=read.meaning, numbered=text, earlier=self.number)
 
@@ -149,6 +161,8 @@ def next_turn(writer: QueryWriter, question: str, before: Turn) -> Turn:
         return before.then(question, understood(writer, question))
     if heavier := of_another_mass(question, before.about):
         return before.then(before.text, _read_so(heavier))
+    if both := of_both(question, before.condition, before.earlier_condition):
+        return replace(before, read=_read_so(both), about=both, told=None)
     if (force := changed_force(question)) and (supposed := of_changed_force(force, before.of_felt)):
         return before.then(before.text, _read_so(supposed), is_supposed=True)
     for text in (

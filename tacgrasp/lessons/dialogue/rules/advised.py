@@ -171,8 +171,8 @@ def step_asked(question: str) -> Calculated | None:
 _EQUALS = re.compile(r"^(?:the )?(?:next (?:step|move|action)|policy output) (?:=|is|:) ?")
 _STATED = re.compile(r"^(?:so )?(?P<what>(?:your|the) (?:advice|recommendation|tip) is) ")
 _SHOULD = re.compile(
-    r"(?:and |so |then )*(?:should|shall|must|do|does|need) (?:i|we|it|the (?:gripper|robot|hand|"
-    r"finger))(?: (?:have|need|ought) to)? (?:be )?"
+    r"(?:and |so |then )*(?:(?:should|shall|must|do|does|need) (?:i|we|it|the "
+    r"(?:gripper|robot|hand|finger))(?: (?:have|need|ought) to)?|do you (?:have|need) to) (?:be )?"
 )
 
 

@@ -49,6 +49,22 @@ _ASKS_FORCE = re.compile(
 )
 
 
+_ENOUGH_FOR = re.compile(
+    r"(?:(?:is|are|would|will|does|do|can) )?(?:(?:it|this|that|we|i|the|my|our|your) )?"
+    r"(?:(?:current |present )?(?:grip|force|squeeze|hold) )?(?:(?:also|still|be|surely|really) )*"
+    r"(?:(?:strong|firm|tight|hard) enough|enough(?: grip| force)?|sufficient|do|work|suffice|good)"
+    r"(?: (?:surely|really))? (?:to (?:hold|lift|carry) |for )(?:(?:an?|one of|one|this|the) )?# "
+    r"\w+"
+    r"(?: (?:one|#|object|part|piece|thing|egg|berry))?(?: (?:too|as well|surely|for sure))?"
+)
+_ENOUGH_TO_HOLD = re.compile(
+    r"(?:is|are|would|will) (?:(?:the|this|my|our|your) )?(?:(?:current |present )?(?:grip|force|"
+    r"squeeze|hold)|we gripping|i gripping|we squeezing|i squeezing) (?:(?:be|surely|really) )*"
+    r"(?:(?:strong |firm |hard |tight |firmly )?enough|sufficient)(?: (?:surely|really))? to "
+    r"(?:(?:surely|safely|be sure of|be sure to) )*(?:hold|lift|carry|holding) "
+    r"(?:it|this|(?:the |this |that |my |our )?(?:object|part|thing|piece|item|mass|load|weight))"
+    r"(?: (?:surely|for sure|safely))?"
+)
 _WORKS = re.compile(
     r"(?:would|will|can|could|is|are) (?:an? )?# \w+(?: (?:object|part|piece|thing|one))?(?: "
     r"(?:surely|"
@@ -74,8 +90,11 @@ def load_query(words: str) -> str:
         if _TOO_LITTLE.search(words):
             return f"check {tested} > {newtons}."
         return f"check {tested} <= {newtons}." if _ENOUGH.search(words) else ""
-    if len(units) == len(masses) == 1 and _WORKS.fullmatch(words):
-        return f"check stays #1 {_MASS_UNITS[units[0]]}."
+    asks_if_held = _WORKS.fullmatch(words) or _ENOUGH_FOR.fullmatch(words)
+    if len(masses) == 1 and not any(units[: masses[0] - 1]) and asks_if_held:
+        return f"check stays #{masses[0]} {_MASS_UNITS[units[masses[0] - 1]]}."
+    if not units and _ENOUGH_TO_HOLD.fullmatch(words):
+        return "check stays given."
     if not units and _HELD.fullmatch(words):
         return "amount holds g."
     if len(units) > 1 and not forces and units[-1] in _MASS_UNITS and _are_listed(words):

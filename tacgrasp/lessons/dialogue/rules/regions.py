@@ -55,7 +55,8 @@ _QUADRANT = re.compile(
     r"(?!.*\bor (?:the |in the )?(?:middle|cent(?:er|re)|neither|none)\b)(?!.*\bcorner\b)"
 )
 _ONE_QUADRANT = re.compile(
-    r"\b(?P<y>upper|top|lower|bottom) (?P<x>left|right) (?:quadrant|quarter)\b"
+    r"\b(?P<y>upper|top|lower|bottom) (?P<x>left|right) (?:quadrant|quarter)\b|"
+    r"\b(?P<first>first) quadrant\b"
 )
 _CORNER_FIELD = re.compile(
     r"\b(?:one|any) of (?:the |its )?(?:four |4 )?corner (?:fields?|regions?|cells?|"
@@ -88,6 +89,7 @@ _NUMBER_OF = re.compile(rf"\bnumber of (?:(?:the|pad|cut|its) )*{_SIDES}\b")
 _EXACTLY = re.compile(
     rf"\b(?:exactly|just|only) (?:on )?(?P<count>one|a single|two|three) {_SIDES}\b"
 )
+_OR_MORE = re.compile(rf"\b(?P<count>one|two|three) or more {_SIDES}\b")
 _OPPOSITE = re.compile(rf"\b(?:two|both|any) opposite {_SIDES}\b")
 _BOTH_OR_NEITHER = re.compile(
     r"\b(?P<a>left|right|top|bottom)\b(?: \w+)?,? (?:or )?(?:(?:off|over|at|on|past) )?(?:the )?"
@@ -153,6 +155,8 @@ def _quadrants(words: str) -> str:
 def _field(words: str) -> str:
     """Whether it is in a corner field, or that in the middle."""
     if quarter := _ONE_QUADRANT.search(words.replace("-", " ")):
+        if quarter["first"]:
+            return "x_mm > 0 and y_mm > 0"
         y = ">" if quarter["y"] in ("upper", "top") else "<"
         return f"x_mm {'<' if quarter['x'] == 'left' else '>'} 0 and y_mm {y} 0"
     if _CORNER_FIELD.search(words):
@@ -167,6 +171,9 @@ def _sides(words: str) -> str:
     if _HOW_MANY.search(words) or _NUMBER_OF.search(words):
         named = [side for side in _FOUR if re.search(rf"\b{side}\b", words)]
         return " + ".join(f"cut_{side}" for side in named or _FOUR)
+    if several := _OR_MORE.search(words):
+        least = {"one": "1", "two": "2", "three": "3"}[several["count"]]
+        return f"cut_left + cut_right + cut_top + cut_bottom >= {least}"
     if (exactly := _EXACTLY.search(words)) and not re.search(r"\b(?:newton|mm|percent)", words):
         count = {"one": "1", "a single": "1", "two": "2", "three": "3"}[exactly["count"]]
         return f"cut_left + cut_right + cut_top + cut_bottom == {count}"
