@@ -38,12 +38,16 @@ def held_frames(
     sense = GelSense(rig.sensor)
     sense.take_reference()
     with opened_afterwards(lambda: let_go(rig.gripper, CLEAR_M)):
-        rig.gripper.grip(force_n)
+        first_n = min(force_n, rig.first_force_n)
+        rig.gripper.grip(first_n)
         if not sense.read_contact():
+            more = "more --force-n" if first_n == force_n else "the rig more first force"
             raise TouchError(
-                f"nothing is felt at {force_n:g} N: put a firm object between the fingers, or give "
-                "more --force-n"
+                f"nothing is felt at {first_n:g} N: put a firm object between the fingers, or give "
+                f"{more}"
             )
+        if first_n < force_n:  # no more than the rig's first force until something is felt
+            rig.gripper.grip(force_n)
         hold = [_frame(rig) for _ in range(round(hold_s * rig.sensor.spec.frame_hz))]
         unload = []
         for step in range(1, UNLOAD_STEPS + 1):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -18,6 +19,15 @@ READY_S = 60.0
 """Longest start: on a machine that is busy, loading torch alone can take many seconds."""
 
 END_S = 5.0
+
+
+_CLASS = re.compile(r"^(?:[a-z_]\w*\.)+\w+: ")
+"""What a traceback writes before an error's message."""
+
+
+def without_class(line: str) -> str:
+    """The last line of a traceback without its error's class."""
+    return _CLASS.sub("", line)
 
 
 class EmulatorProcess:
@@ -82,11 +92,12 @@ class EmulatorProcess:
         return ready
 
     def _error(self) -> str:
-        """The last line of the emulator's standard error, without frames and hints of its help."""
+        """The last line of the emulator's standard error, without frames, hints and class names."""
         self._errors.seek(0)
         lines = self._errors.read().decode(errors="replace").splitlines()
         texts = (line.strip("╭╮╰╯│─ ") for line in reversed(lines))
-        return next((text for text in texts if text and "full helptext" not in text), "")
+        last = next((text for text in texts if text and "full helptext" not in text), "")
+        return without_class(last)
 
     def _end(self) -> None:
         for pipe in (self._child.stdin, self._child.stdout):

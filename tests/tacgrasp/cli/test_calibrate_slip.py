@@ -1,5 +1,7 @@
 """``tacgrasp calibrate slip`` on the simulated rig."""
 
+from dataclasses import replace
+
 import pytest
 
 from cltp.errors import TouchError
@@ -7,6 +9,7 @@ from cltp.tactile.shear.slip_calibration import load_slip_calibration
 from sim.grasp.devices import SimGripper
 from tacgrasp.base.errors import UsageError
 from tacgrasp.cli.calibrate_slip import CalibrateSlipFlags, run
+from tacgrasp.rig import factory
 from tacgrasp.rig.gel_sense import GelSense
 
 
@@ -43,6 +46,23 @@ def test_ctrl_c_in_a_hold_leaves_the_gripper_open(num_grips, tmp_path, monkeypat
     with pytest.raises(KeyboardInterrupt):
         run(CalibrateSlipFlags(sensor="taxels", hold_s=1.0, out=tmp_path / "slip.json"))
     assert [state.closed for state in opens] == [False]
+
+
+def test_until_something_is_felt_the_fingers_close_with_the_rigs_first_force(tmp_path, monkeypatch):
+    grip, asked = SimGripper.grip, []
+
+    def recorded(self, force_n):
+        asked.append(force_n)
+        return grip(self, force_n)
+
+    make = factory.make_centred_rig
+    monkeypatch.setattr(SimGripper, "grip", recorded)
+    monkeypatch.setattr(
+        factory, "make_centred_rig", lambda config: replace(make(config), first_force_n=0.4)
+    )
+    run(CalibrateSlipFlags(sensor="taxels", hold_s=1.0, force_n=1.2, out=tmp_path / "slip.json"))
+    assert asked[:2] == [0.4, 1.2]
+    assert max(asked) == 1.2
 
 
 def test_fingers_that_hold_nothing_calibrate_nothing(tmp_path, monkeypatch):

@@ -12,7 +12,7 @@ import pytest
 
 from primitives import RobotError
 from sim.emulators.process.control import ControlClient, ControlServer
-from sim.emulators.process.spawn import EmulatorProcess
+from sim.emulators.process.spawn import EmulatorProcess, without_class
 
 ENDS_WITH_STDIN = """
 from sim.emulators.process.lifetime import announce_and_wait
@@ -110,6 +110,17 @@ def test_a_channel_that_is_not_there_is_an_error_and_not_a_wait(lamp):
 def test_an_unknown_kind_of_emulator_is_refused_with_what_it_said():
     with pytest.raises(RobotError, match=r"ended at once.*out of ur, dynamixel, taxels, rig"):
         EmulatorProcess("toaster")
+
+
+@pytest.mark.parametrize(
+    ("line", "told"),
+    [
+        ("primitives.errors.RobotError: unknown object 'foo'", "unknown object 'foo'"),
+        ("expected an emulator: none", "expected an emulator: none"),
+    ],
+)
+def test_what_an_emulator_said_is_told_without_the_class_of_its_error(line, told):
+    assert without_class(line) == told
 
 
 @pytest.mark.parametrize("how", ["stdin closes", "terminated"])
