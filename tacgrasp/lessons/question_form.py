@@ -156,6 +156,31 @@ def in_usual_order(question: str) -> str:
     return f"Is {found['subject']} {found['said'].lower()}?" if found else ""
 
 
+_NUMBER_BEFORE = re.compile(
+    r"(?P<told>[^?]*?(?<![\w.])(?P<number>\d+(?:\.\d+)? ?(?:mm|cm|µm|microns?|millimet(?:re|"
+    r"er)s?|N|mN|"
+    r"newtons?|millinewtons?|grams?|g|percent|%))(?![\w])[^?]*?[.,;:!–—-]) +(?:(?:so|and|but) )?"
+    rf"(?P<asked>{AUXILIARY} [^?,;:]*?\b(?:over|above|beyond|past|under|below|within|more than|"
+    rf"less than|"
+    r"exceed(?:ed|ing)?|at|reach(?:ed)?)) (?:that|this)(?: (?:figure|mark|value|number|limit|"
+    r"bound|amount|"
+    r"line|threshold))?(?: (?:now|already|yet|at the moment|still|here|at present))*[?.! ]*",
+    re.I,
+)
+_HAS_NUMBER = re.compile(r"\d")
+
+
+def with_number_before(question: str) -> str:
+    """A question of 'that', with the only number told before it; '' of others.
+
+    'Anything above 2.5 N worries me. Is the grip over that?'
+    """
+    found = _NUMBER_BEFORE.fullmatch(question.strip())
+    if found is None or len(re.findall(r"\d+(?:\.\d+)?", found["told"])) != 1:
+        return ""
+    return f"{found['asked']} {found['number']}?" if not _HAS_NUMBER.search(found["asked"]) else ""
+
+
 def begins_as_one(question: str) -> bool:
     """Whether the first word asks: a verb, 'what', 'how far'."""
     return bool(_BEGINS_WITH_VERB.match(question) or _ASKS_OPENLY.match(question))

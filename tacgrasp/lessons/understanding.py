@@ -85,6 +85,7 @@ from tacgrasp.lessons.question_form import (
     in_usual_order,
     is_one_clause,
     is_unlikely,
+    with_number_before,
     without_topic,
 )
 from tacgrasp.lessons.read_question import ReadQuestion
@@ -227,6 +228,8 @@ def _by_other_words(question: str, before: str) -> ReadQuestion | None:
             return understood_by_grammar(plain, before)
     if before:
         return None
+    if pointed := with_number_before(question):
+        return understood_by_grammar(pointed)
     if ordered := in_usual_order(question):
         return understood_by_grammar(ordered)
     alone, topic = without_topic(question)

@@ -113,6 +113,8 @@ _ADDED = re.compile(
     r"significant (?:figures|digits))|"
     r"\bboth (?=\w+ and (?!\w+ (?:in|is|are)\b))|"
     r"\beither (?!(?:of (?:these|them|the two)|holds?)\b)(?=.* or )|\ball (?=in \w+\W*$)|"
+    r"\bnumerically |"
+    r",? both (?:taken|measured|expressed|counted)? ?in newtons(?=\W*$)|"
     r"\beven (?=(?:bigger|larger|deeper|more|larger|smaller|less)\b)",
     re.I,
 )
@@ -267,8 +269,17 @@ def is_denied_first(question: str) -> bool:
     return _DENIED_FIRST.match(question) is not None
 
 
+_UNIT_BEHIND = re.compile(
+    r"\?\s+(?:(?:give it |answer )?in )?(?P<unit>newtons?|N|mN|millinewtons?|mm|millimet(?:re|"
+    r"er)s?|"
+    r"microns?|µm|grams?|percent|cm|centimet(?:re|er)s?)(?:,? please)?[.?! ]*$"
+)
+"""'What force lies in the middle of the band? Newtons.'"""
+
+
 def plainer(question: str) -> str:
     """A question without address, thanks and tag, and without the denial that expects 'yes'."""
+    question = _UNIT_BEHIND.sub(lambda unit: f" in {unit['unit']}?", question)
     text = _THOU.sub("thou", " ".join(_CONSTANT.sub("", question).split()))
     text = _SQUARED.sub(
         lambda each: (

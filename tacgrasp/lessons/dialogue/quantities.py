@@ -252,7 +252,7 @@ def amount_text(
         is_signed: Whether a plus is shown, whatever the quantity.
     """
     quantity = QUANTITIES[name]
-    largest = {"holds": 0.03, "spare": 0.03}.get(name, 0.01 if name in GIVEN else math.inf)
+    largest = {"holds": 0.05, "spare": 0.05}.get(name, 0.01 if name in GIVEN else math.inf)
     decimals_shown = quantity.decimals + _is_coarse(value, quantity.decimals, largest)
     sign = "+" if is_signed or quantity.is_signed else ""
     if unit == "%":

@@ -2,7 +2,7 @@
 
 import pytest
 
-from tacgrasp.lessons.question_form import is_unlikely
+from tacgrasp.lessons.question_form import is_unlikely, with_number_before
 
 
 @pytest.mark.parametrize(
@@ -42,3 +42,26 @@ def test_another_kind_of_answer_is_unlikely(question, query):
 )
 def test_what_fits_or_is_not_told_stays(question, query):
     assert not is_unlikely(question, query)
+
+
+@pytest.mark.parametrize(
+    ("question", "asked"),
+    [
+        ("Anything above 2.5 newtons worries me. Is the grip over that?", "2.5 newtons"),
+        ("It cracks past 0.8 mm, so are we beyond that figure now?", "0.8 mm"),
+    ],
+)
+def test_that_is_the_number_which_was_told_before(question, asked):
+    assert with_number_before(question).endswith(f"{asked}?")
+
+
+@pytest.mark.parametrize(
+    "question",
+    [
+        "Is the grip over that?",
+        "It weighs 30 g and the limit is 2 N. Are we over that?",  # which of both?
+        "Is 2 N fine, or is the grip over 3 N?",
+    ],
+)
+def test_of_none_or_two_numbers_that_is_neither(question):
+    assert with_number_before(question) == ""

@@ -167,7 +167,8 @@ _OR_ZERO = re.compile(
     r"gives|"
     r"to be|reads))? (?P<d>#\d+)$|"
     r" (?:counting|treating|taking|with) (?:(?!#).)+? as (?P<e>#\d+)$|"
-    r" (?:never|not) (?:below|under|less than) (?P<f>#\d+)$"
+    r" (?:never|not) (?:below|under|less than) (?P<f>#\d+)$|"
+    r" clamp(?:ed|ing)?(?: it)? (?:at|to) (?P<g>#\d+)(?: (?:once|if|when) .+)?$"
 )
 _SIGNED = re.compile(
     r"(?:^| )(?:(?:use|give|say|put|with|write) )?(?:an? |it )?(?:minus|negative|plus|positive)"

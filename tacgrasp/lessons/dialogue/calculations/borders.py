@@ -20,7 +20,7 @@ from collections.abc import Mapping
 from tacgrasp.lessons.dialogue.calculations.asked import AskedWords
 from tacgrasp.lessons.dialogue.calculations.phrases import AGAINST, is_made_of, sign_of
 from tacgrasp.lessons.dialogue.calculations.quantity_names import UNIT
-from tacgrasp.lessons.dialogue.calculations.terms import Term
+from tacgrasp.lessons.dialogue.calculations.terms import PLAIN, Term
 from tacgrasp.lessons.dialogue.meaning import Calculated
 
 _X, _Y = "pad_width_mm / 2", "pad_height_mm / 2"
@@ -97,7 +97,8 @@ _VERB = re.compile(
     rf"(?:{AGAINST}) )"
 )
 _WHOLE_PAD = (
-    rf"(?:(?:the|your|this|our|its|whole|entire|full) )*(?:(?:sensing|gel|sensor|tactile|touch) )*"
+    rf"(?:(?:the|your|this|our|its|whole|entire|full) )*(?:(?:sensing|gel|sensor|tactile|touch|"
+    rf"finger) )*"
     rf"{_PAD}(?: surface| itself)?(?: (?:that )?(?:you|we) (?:feel|sense|touch)(?: with)?)?"
 )
 _PAD_IS = re.compile(
@@ -106,9 +107,14 @@ _PAD_IS = re.compile(
     rf"{_WHOLE_PAD}|"
     rf"(?:what is )?{_WHOLE_PAD}(?:'s)? (?:(?P<w>width|breadth)|height))"
 )
+_PAD_RATIO = re.compile(
+    rf"(?:what is )?(?:the )?(?:(?:aspect )?ratio of {_WHOLE_PAD}(?: width (?:to|over|by) height)?|"
+    rf"width to height ratio of {_WHOLE_PAD})"
+)
 _PAD_AREA = re.compile(
     rf"(?:what|how (?:large|big|much)) (?:area )?(?:is|has|does) {_WHOLE_PAD}(?: have| in total)?|"
-    rf"(?:what is )?(?:(?:the|total|full|whole|entire) )*(?:sensing )?area of {_WHOLE_PAD}|"
+    rf"(?:what is )?(?:(?:the|total|full|whole|entire) )*(?:sensing )?(?:area|surface) of "
+    rf"{_WHOLE_PAD}|"
     rf"(?:what is )?(?:(?:the|total|full|whole|entire) )+(?:gel|pad|sensor|sensing)(?:'s)? area"
     rf"(?: of {_WHOLE_PAD})?|(?:what is )?{_WHOLE_PAD}(?:'s)? (?:(?:total|whole|full|entire) )+area"
 )
@@ -148,6 +154,8 @@ def to_border(asked: AskedWords) -> Term | None:
         is_wide = found["wide"] or found["width"] or found["w"]
         size = "pad_width_mm" if is_wide else "pad_height_mm"
         return Term(expression=size, dimension="length", words="")
+    if _PAD_RATIO.fullmatch(asked.words):
+        return Term(expression="pad_width_mm / pad_height_mm", dimension=PLAIN, words="")
     if _PAD_AREA.fullmatch(asked.words):
         return Term(expression="pad_width_mm * pad_height_mm", dimension="area", words="")
     words = _PAD_SIZE.sub("", asked.words)

@@ -33,7 +33,8 @@ _OF_FORM = (
     r"(?:if|suppose|supposing|pretend|imagine|assume|assuming|say|were|was|the|a|an|my|our|that|"
     r"this|it|"
     r"contact|patch|footprint|area|print|imprint|spot|region|touched|part|surface|size|pad|gel|"
-    r"redrawn|drawn|redraw|draw|made|turned|reshaped|rounded|replaced|modelled|treated|taken|"
+    r"redrawn|drawn|redraw|draw|replace|replaced|replacing|made|turned|reshaped|rounded|replaced|"
+    r"modelled|treated|taken|"
     r"thought|squashed|squeezed|moulded|into|as|to|by|with|of|on|in|for|being|one|perfect|"
     r"perfectly|"
     r"true|exact|exactly|ideal|simple|plain|single|neat|full|same|equal|equivalent|identical|"
@@ -86,11 +87,13 @@ _OF_PRESSURE = (
 
 
 _FREE = re.compile(
-    r"\b(?:free|untouched|uncovered|unpressed|bare|clear|empty|not (?:being )?(?:touched|covered|"
+    r"\b(?:free|untouched|uncovered|unpressed|bare|clear|empty|outside (?:the )?contact|not "
+    r"(?:being )?(?:touched|covered|"
     r"pressed|in contact))\b"
 )
 _OF_FREE = (
     rf"(?:{_OF_PRESSURE}|free|untouched|uncovered|unpressed|bare|clear|empty|not|being|any|touch|"
+    rf"outside|centimetres?|"
     r"stay|stays|remain|remains|left|have|has|mm2|cm²|square|millimetres?|pad's|gel's|sensing|"
     r"sensor|right|x|surface|still|large|big|total|many|aren't)"
 )

@@ -57,7 +57,8 @@ _STEPS: tuple[tuple[re.Pattern[str], tuple[str, ...]], ...] = tuple(
             (Primitive.INCREASE_FORCE.value,),
         ),
         (
-            rf"{_GRIP} (?:\w+ ){{0,2}}{_SOFTER}|(?:decreas|reduc)(?:e|ing)|lower(?:ing)? the force|"
+            rf"{_GRIP} (?:\w+ ){{0,2}}{_SOFTER}|(?:decreas|reduc)(?:e|ing)|lower(?:ing)?(?: the "
+            rf"force)?|"
             rf"loosen(?:ing)?|eas(?:e|ing) off|back(?:ing)? off|{_SOFTER}",
             (Primitive.DECREASE_FORCE.value,),
         ),
@@ -127,7 +128,7 @@ def advised(question: str) -> Calculated | None:
     words = _EQUALS.sub("is the next step ", words)
     if _ASKS_YES.match(words) and _ADVICE.search(words) and " or no" not in words:
         return is_step_advised(words)
-    if ways := _ways(words):
+    if ways := _ways(words) or _choice_of_steps(words):
         return ways
     if (found := _CHOICE.fullmatch(words)) is None:
         return None
@@ -158,18 +159,67 @@ def _ways(words: str) -> Calculated | None:
     return Calculated(truth=f"{branches} else '{none}'", unit=None)
 
 
+_LEADS = re.compile(
+    r"^(?:(?:and|so|then|ok)[, ]+)*(?:(?:as to |going by |for )?(?:your|the|my) )?(?:next "
+    r"(?:step|move|"
+    r"action|command)|advice|recommendation|what next)[:,–—-]+ ?|"
+    r"^(?:if it (?:was|were) your turn(?: now)?|going by your advice|next)[, ]+"
+)
+_ASKS_STEP = re.compile(
+    r"^(?:(?:are|is) (?:we|it) to|should (?:i|we|it|the \w+)|would you(?: have (?:me|us))?|do "
+    r"you want "
+    r"(?:me|us) to|(?:shall|must) (?:i|we)|which do you want from me next:?|do (?:i|we)) "
+)
+_ASKED_BEHIND = re.compile(
+    r"[ ,:–—-]+(?:(?:what|which(?: one)?) (?:do|would|is|are) (?:you|your).*|pick (?:one|1)|"
+    r"which(?: one)?|"
+    r"what now|next|now)[?.! ]*$"
+)
+_LEFT_ALONE = re.compile(
+    r"(?:(?:leave|keep) (?:it|the \w+)(?: as it is| alone| be)?|neither(?: of (?:them|these))?|"
+    r"none|"
+    r"nothing|(?:do )?something (?:else|different|other)|a different (?:one|command|step)|another "
+    r"(?:one|step|command)|not(?: yet)?|nowhere|stay(?: put)?|wait|other)"
+)
+
+
+def _choice_of_steps(words: str) -> Calculated | None:
+    """Which of some steps is advised, or none of them: 'tighten, loosen or leave it?'."""
+    lead = _LEADS.match(words)
+    rest = words[lead.end() :] if lead else words
+    asks = _ASKS_STEP.match(rest)
+    behind = _ASKED_BEHIND.search(rest)
+    if not (lead or asks or (behind and _ADVICE.search(words))):
+        return None
+    rest = rest[asks.end() if asks else 0 : behind.start() if behind else len(rest)]
+    parts = [part.strip(" ?.!") for part in re.split(r",? or |, ", rest)]
+    told, none = [], ""
+    for part in parts:
+        if _LEFT_ALONE.fullmatch(part) and part == parts[-1]:
+            none = part
+        elif condition := _one_of(part):
+            told.append((part, condition))
+        else:
+            return None
+    if len(told) < 2 - bool(none) or not told or not none:
+        return None
+    branches = " else ".join(f"'{word}' if {condition}" for word, condition in told)
+    return Calculated(truth=f"{branches} else '{none}'", unit=None)
+
+
 def step_asked(question: str) -> Calculated | None:
     """Whether to move, or to begin again: 'should I shift it?'; None of other questions."""
     words = question.lower().strip()
     if not _SHOULD.match(words) or re.search(r"\bor\b|\d|\bif\b|\bwhy\b", words):
         return None
     condition = step_condition(_SHOULD.sub("", words))
-    is_step = "move_" in condition or "reset" in condition
+    is_step = "reset" in condition or ("move_" in condition and bool(_MOVES.search(words)))
     return Calculated(truth=condition, unit=None) if is_step else None
 
 
 _EQUALS = re.compile(r"^(?:the )?(?:next (?:step|move|action)|policy output) (?:=|is|:) ?")
 _STATED = re.compile(r"^(?:so )?(?P<what>(?:your|the) (?:advice|recommendation|tip) is) ")
+_MOVES = re.compile(rf"\b{_MOVE}\b")
 _SHOULD = re.compile(
     r"(?:and |so |then )*(?:(?:should|shall|must|do|does|need) (?:i|we|it|the "
     r"(?:gripper|robot|hand|finger))(?: (?:have|need|ought) to)?|do you (?:have|need) to) (?:be )?"
@@ -178,5 +228,6 @@ _SHOULD = re.compile(
 
 def _one_of(words: str) -> str:
     """The condition of a step that some words name and nothing else; '' of others."""
-    whole = next((p for p, _ in _STEPS if p.fullmatch(words.strip())), None)
-    return step_condition(words.strip()) if whole else ""
+    bare = re.sub(r"\b(?:now|it|the (?:force|grip|squeeze))\b", "", words).strip()
+    whole = next((p for p, _ in _STEPS if p.fullmatch(bare)), None)
+    return step_condition(bare) if whole else ""

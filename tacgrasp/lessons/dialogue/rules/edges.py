@@ -25,7 +25,10 @@ _TAG_RIGHT = re.compile(
 )
 _EDGE = r"(?:edges?|rims?|borders?|boundary|boundaries|margins?)"
 _CUT = (
-    r"(?:cuts?|cutting|clip(?:s|ped|ping)?|crop(?:s|ped|ping)?|truncat(?:es?|ed|ing)|truncation|"
+    r"(?:(?:escap(?:es?|ed|ing)|hidden|hides?|vanish(?:es|ed)?|disappear(?:s|ed)?|leav(?:es?|"
+    r"ing)|left) "
+    r"(?:\w+ ){0,3}?(?:past|beyond|over|off|behind|on)|cuts?|cutting|clip(?:s|ped|ping)?|"
+    r"crop(?:s|ped|ping)?|truncat(?:es?|ed|ing)|truncation|"
     r"chop(?:s|ped|ping)?|lop(?:s|ped|ping)?|slic(?:es?|ed|ing)|trim(?:s|med|ming)?|"
     r"sever(?:s|ed|ing)?|shear(?:s|ing)? off|sheared|shorn|snip(?:s|ped|ping)?|lost|missing|"
     r"docked|guillotined|amputat(?:es?|ed|ing)|(?:bit(?:es?|ten|ing)?|eat(?:s|en|ing)?|shav(?:es?|"

@@ -57,6 +57,17 @@ _ENOUGH_FOR = re.compile(
     r"\w+"
     r"(?: (?:one|#|object|part|piece|thing|egg|berry))?(?: (?:too|as well|surely|for sure))?"
 )
+_SURELY_NEEDED = re.compile(
+    r"(?=.*\b(?:surely|safely|for sure|certain|certainly)\b)"
+    r"(?=.*\b(?:hold|holds|held|keep|keeps|kept|stay|stays|carry)\b)"
+    r"(?:^|.*\b)(?:what|which|how much|how many newtons(?: of)?|newtons|least|minimum)"
+    r"(?: (?:force|grip|squeeze|gripping force))?(?: in \w+)?(?: (?:is|are|would|will|does|do|it|"
+    r"we|i))*"
+    r"(?: (?:enough|needed|required|sufficient|necessary|need|take|takes|it takes))"
+)
+_OF_BOUNDS = re.compile(
+    r"\b(?:limit|band|heaviest|mass|grams?|load|more|less|still|missing|left)\b"
+)
 _ENOUGH_TO_HOLD = re.compile(
     r"(?:is|are|would|will) (?:(?:the|this|my|our|your) )?(?:(?:current |present )?(?:grip|force|"
     r"squeeze|hold)|we gripping|i gripping|we squeezing|i squeezing) (?:(?:be|surely|really) )*"
@@ -93,6 +104,8 @@ def load_query(words: str) -> str:
     asks_if_held = _WORKS.fullmatch(words) or _ENOUGH_FOR.fullmatch(words)
     if len(masses) == 1 and not any(units[: masses[0] - 1]) and asks_if_held:
         return f"check stays #{masses[0]} {_MASS_UNITS[units[masses[0] - 1]]}."
+    if not units and _SURELY_NEEDED.search(words) and not _OF_BOUNDS.search(words):
+        return "amount needed N."
     if not units and _ENOUGH_TO_HOLD.fullmatch(words):
         return "check stays given."
     if not units and _HELD.fullmatch(words):

@@ -19,7 +19,7 @@ _ONE_OF = re.compile(
     r"\b(?:one|either|some) (?:of|from|among) (?:these|those|the|them|this)?\b|\bone of\b|"
     r"\bamong\b|\b(?:classified|categori[sz]ed|labelled|labeled|recogni[sz]ed|registered) as\b|"
     r"\b(?:belong|belongs|fall|falls|count|counts|qualif\w+) (?:to|into|in|as|among)\b|"
-    r"\banything\b|\b(?:do|can) (?:you|we) (?:feel|sense|detect|have)\b|"
+    r"\banything\b|\bfile\b.*\bunder\b|\b(?:do|can) (?:you|we) (?:feel|sense|detect|have)\b|"
     r"\bwould (?:you|one) (?:class|call|describe|rate)\b|\bdescribed (?:by|as)\b|"
     r"\beither of the words\b"
 )

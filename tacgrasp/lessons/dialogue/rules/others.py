@@ -57,6 +57,7 @@ _ASKS_CHANGE = re.compile(
 
 _NOT_NORMAL = re.compile(
     r"\b(?:shear|shearing|tangential|torque|torques|torsion|moment of force|twisting moment|"
+    r"(?:closing|approach|opening) speed|velocity|acceleration|how fast|"
     r"lateral (?:force|load)|sideways force|friction force)\b"
 )
 _EXTENT = re.compile(

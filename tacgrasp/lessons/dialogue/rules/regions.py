@@ -32,7 +32,9 @@ _WORDS = re.compile(r"[a-z]+(?:-[a-z]+)?|\d+")
 _PART = rf"left|top|upper|bottom|lower|{_MIDDLE}|right"
 _STRIP = r"(?: one| third| strip| column| row| part)?"
 _THIRDS = re.compile(
-    rf"\b(?P<a>{_PART}){_STRIP} (?:or )?(?P<b>{_PART}){_STRIP} or (?:the )?(?P<c>{_PART})\b"
+    rf"\b(?P<a>{_PART})(?P<strip>{_STRIP}) (?:or )?(?:(?:in )?the )?(?P<b>{_PART}){_STRIP} or "
+    rf"(?:(?:in )?the )?"
+    rf"(?P<c>{_PART})\b(?P<last>{_STRIP})"
 )
 _OF_PLACE = (
     r"(?:is|s|true|that|does|do|in|into|on|at|the|a|an|of|it|its|this|that|contact|contact's|"
@@ -59,7 +61,7 @@ _ONE_QUADRANT = re.compile(
     r"\b(?P<first>first) quadrant\b"
 )
 _CORNER_FIELD = re.compile(
-    r"\b(?:one|any) of (?:the |its )?(?:four |4 )?corner (?:fields?|regions?|cells?|"
+    r"\b(?:one|any) of (?:the |its )?(?:four |4 )?corner (?:fields?|regions?|cells?|bits?|parts?|"
     r"squares?|zones?|areas?)\b|\bin (?:a|any) corner (?:field|region|cell|square|zone|area)\b"
 )
 _MIDDLE_FIELD = re.compile(
@@ -117,7 +119,8 @@ def _thirds(words: str) -> str:
     """Which of the three thirds it is in, in the question's words."""
     if (found := _THIRDS.search(words)) is None or not is_made_of(words, _OF_PLACE):
         return ""
-    named = found.groups()
+    named = (found["a"], found["b"], found["c"])
+    strip = found["strip"] if found["strip"] == found["last"] and found["strip"] != " one" else ""
     tests = {word: _ACROSS.get(word) or _ALONG.get(word) for word in named}
     sides = [word for word in named if tests[word]]
     middle = [word for word in named if not tests[word]]
@@ -125,7 +128,7 @@ def _thirds(words: str) -> str:
     if len(sides) != 2 or len(middle) != 1 or not is_axis or tests[sides[0]] == tests[sides[1]]:
         return ""
     a, b = sides
-    return f"'{a}' if {tests[a]} else '{b}' if {tests[b]} else '{middle[0]}'"
+    return f"'{a}{strip}' if {tests[a]} else '{b}{strip}' if {tests[b]} else '{middle[0]}{strip}'"
 
 
 def _third(words: str) -> str:

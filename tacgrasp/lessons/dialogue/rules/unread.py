@@ -31,7 +31,8 @@ _PATTERNS = (
     r"\b(?:twice|doubled?|half|halved|tripled?|\d times)(?: of| as \w+ as)?(?: "
     r"(?:the|our|this|their|its))? "
     r"(?:limit|weight|mass|area|pad|contact|distance|time|friction)\b",
-    r"\b(?:limit|weight|mass|area|pad|contact|distance|time|friction)\b.{0,20}\b(?:doubled|halved|tripled|"
+    r"\b(?:limit|weight|mass|area|pad|contact|distance|time|friction)\b.{0,20}\b(?:doubled|"
+    r"halved|tripled|"
     r"divided by two|twice|half|\d times)\b",
     # sums of a felt and a named number
     rf"{_NUMBER}\s*(?:%|\w+)?\s+(?:more|extra|less|additional|further)\b(?! than)",

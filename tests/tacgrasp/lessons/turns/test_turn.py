@@ -16,6 +16,10 @@ from tests.fakes.question_scenes import HELD
 MOVED = "calculate action in ['move_up', 'move_down', 'move_left', 'move_right']."
 
 
+HOLDS_IT = "calculate force_n >= 0.0205 * mass_g."
+TWICE = "calculate (2 * force_n) / gram_n in g."
+
+
 class Refusing:
     """A model that must not be asked."""
 
@@ -167,6 +171,37 @@ def test_several_follow_ups_in_a_row_lose_nothing(questions, query):
             ("Will it slip at this weight?", "And if it were twice as heavy?"),
             "calculate force_n < 0.0205 * (2 * mass_g).",
         ),
+        (("The object weighs 40 g.", "Is the grip strong enough for it?"), HOLDS_IT),
+        (
+            ("Will 25 g slip?", "What's the least force for that one?"),
+            "amount needed #1 g N.",
+        ),
+        (
+            ("Will it slip at this weight?", "And two of them?"),
+            "calculate force_n < 0.0205 * (2 * mass_g).",
+        ),
+        # another force
+        (
+            ("Is it safe to lift?", "and with 0.4 N less?", "and 0.2 N more?"),
+            "calculate band_low_n <= (force_n + 0.2) <= band_high_n.",
+        ),
+        (
+            ("Is it below the limit?", "If I add 0.3 N, still under?", "and 1 N harder?"),
+            "calculate (force_n + 1) < limit_n.",
+        ),
+        (("How many grams does it hold?", "and with twice the force?"), TWICE),
+        # two conditions
+        (
+            ("Is it deeper than 0.4 mm?", "Is the area over 10 %?", "So are both true?"),
+            "calculate (depth_mm > 0.4) and (area_percent > 10).",
+        ),
+        # figures and shifts
+        (("Is it deep?", "What is the real figure then?"), "amount depth mm."),
+        (
+            ("If it moved 2 mm to the right, what would x be?", "And 3 mm to the left?"),
+            "calculate x_mm - 3 in mm.",
+        ),
+        (("Is it left or right of the middle?", "By how many mm?"), "calculate abs(x_mm) in mm."),
         # the pad, guesses, advice
         (("How wide is the pad?", "And its height?"), "calculate pad_height_mm in mm."),
         (("My guess is a sphere.", "Am I right?"), "check shape sphere."),
@@ -213,6 +248,14 @@ def test_a_question_that_stands_alone_follows_nothing():
         ("The band is 1 to 2 N.", "the force band is 1 to 2 N", None),
         ("New limit from the boss: 2.5 N.", "the limit is 2.5 N", None),
         ("Sorry, I mean the limit is 2.5 N.", "the limit is 2.5 N", None),
+        ("My peaches run about 150 g.", "the object weighs 150 g", None),
+        ("We're handling 40 g vials here.", "the object weighs 40 g", None),
+        ("It cracks above 0.8 N.", "the limit is 0.8 N", None),
+        (
+            "For this test the band is 0.8 to 1.6 N and the limit is 3 N.",
+            "the force band is 0.8 to 1.6 N and the limit is 3 N",
+            None,
+        ),
         ("It's an egg, so the limit is 1.5 N.", "the limit is 1.5 N", None),
         ("There's an egg in it, I don't want more than 1.2 N on it.", "the limit is 1.2 N", None),
         (
@@ -238,7 +281,17 @@ def test_a_correction_is_of_what_was_told_last():
     )
 
 
-@pytest.mark.parametrize("question", ["The limit is 900 mm.", "Is the object 50 g?", "It is deep."])
+@pytest.mark.parametrize(
+    "question",
+    [
+        "The limit is 900 mm.",
+        "Is the object 50 g?",
+        "It is deep.",
+        "grip fine for 25 g",  # a question without its mark
+        "It is 20 g heavier than the last one.",
+        "Either 20 g or 30 g is right.",
+    ],
+)
 def test_what_is_no_mass_or_bound_is_not_told(question, monkeypatch):
     monkeypatch.setattr(turns, "understood", lambda *_: None)
     assert next_turn(Refusing(), question, Turn()).told is None

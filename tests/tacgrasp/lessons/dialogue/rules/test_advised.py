@@ -45,6 +45,26 @@ def test_one_of_two_steps_or_another_is_chosen():
 
 
 @pytest.mark.parametrize(
+    ("question", "chosen"),
+    [
+        ("Next step: squeeze more, squeeze less, or neither?", "squeeze more"),
+        ("Should I grip harder, ease off, or leave the squeeze alone?", "grip harder"),
+        ("Lift now or not yet: what do you advise?", "not yet"),
+        ("Which way must it travel next: left, right, up, down or nowhere?", "nowhere"),
+    ],
+)
+def test_a_step_is_chosen_by_the_questions_own_words(question, chosen):
+    assert answered(understood_by_grammar(question), LIGHT).answer.value == chosen
+
+
+def test_should_i_move_is_a_yes_or_a_no():
+    read = understood_by_grammar("Should I shift the gripper?")
+    assert answered(read, ASIDE).answer.text.startswith("Yes, the advice is to move")
+    assert answered(read, HELD).answer.text == "No, the advice is to lift it."
+    assert understood_by_grammar("Does it lie to the left?").query == "check left."
+
+
+@pytest.mark.parametrize(
     "question", ["Should I squeeze harder?", "What do you advise?", "Is it deep?", "Lift or not?"]
 )
 def test_other_questions_are_left_to_others(question):
