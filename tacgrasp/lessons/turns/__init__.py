@@ -6,5 +6,6 @@ the next one follows is that text, so that several in a row lose nothing.
 Not here: what a question alone means (``tacgrasp.lessons.understanding``), what is felt
 (``tacgrasp.playback.conversation``).
 
-May import: primitives, tacgrasp.lessons, tacgrasp.lessons.dialogue.
+May import: cltp.tactile, policies.instructions, primitives, tacgrasp.lessons,
+tacgrasp.lessons.dialogue.
 """

@@ -4,23 +4,42 @@ from __future__ import annotations
 
 import re
 
-_LEAD = re.compile(
+_FIRST = re.compile(
     r"\A(?:(?:and|n|but|or|so|ok|okay|well|then|now|no|yes|hm+|ah|oh|right|cool|nice|good|great|"
     r"fine|thanks|thank you|sorry|fair enough|alright|all right|got it|i see|interesting|"
     r"just|also|next|still|actually|wait|hang on|hold on|back to (?:the \w+|mine|it))"
     r"(?:[,.:;!]+ *| +-+ +| +)(?=\S))+",
     re.I,
 )
-_TAIL = re.compile(
+_LAST = re.compile(
     r"(?:,? (?:right|correct|yes or no|sorry|over or under|above or below)|"
     r"[, ]+(?:then|instead|please|pls|too|as well|now|also|at least|again|exactly|precisely|"
     r"right now|at the moment|though|by the way|in total|altogether))+(?=[?.! ]*$)",
     re.I,
 )
 
+LEAD = (
+    r"(?:(?:and|n|but|or|so|ok|okay|well|then|now|no|sorry|what about|how about|i meant?|"
+    r"make (?:it|that))[, ]+)*"
+)
+END = (
+    r"(?:[, ]+(?:then|instead|please|pls|now|more|extra|too|as well|at least|sorry|next|first|"
+    r"right))*[?.! ]*"
+)
+
 
 def without_lead(question: str) -> str:
     """A question without what leads into it, and without a last 'then' or 'please'."""
     text = question.strip()
-    bare = _TAIL.sub("", _LEAD.sub("", text, count=1))
+    bare = _LAST.sub("", _FIRST.sub("", text, count=1))
     return bare or text
+
+
+def capital(text: str) -> str:
+    """A text that begins a sentence."""
+    return f"{text[:1].upper()}{text[1:]}"
+
+
+def uncapital(text: str) -> str:
+    """A text that goes on in a sentence."""
+    return text if text[:2] in ("I ", "I'") else f"{text[:1].lower()}{text[1:]}"

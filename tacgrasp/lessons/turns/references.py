@@ -5,7 +5,7 @@
     What is the force?      And with 10 % more?             1.1 * force_n
     x in mm?  y too         The sum of both?                x_mm + y_mm
 
-Not here: conditions under a supposed force (``tacgrasp.lessons.turns.follow_ups``).
+Not here: conditions under a supposed force (``tacgrasp.lessons.turns.supposed``).
 """
 
 from __future__ import annotations

@@ -16,7 +16,7 @@ from tacgrasp.lessons.dialogue.meaning import Amount, Meaning, Several, names_of
 from tacgrasp.lessons.dialogue.plainer import AUXILIARY
 from tacgrasp.lessons.dialogue.quantities import UNITS
 from tacgrasp.lessons.dialogue.scene import AskedScene, band_contract
-from tacgrasp.lessons.turns.rewriting import dimension_of, unit_symbol
+from tacgrasp.lessons.turns.units import dimension_of, unit_symbol
 
 _N = r"(?P<{}>\d+(?:[.,]\d+)?)"
 _UNIT = r"(?P<{}>[a-zA-Zµ]+)"

@@ -18,27 +18,25 @@ from tacgrasp.lessons.dialogue.query import query_of
 from tacgrasp.lessons.read_question import ReadQuestion
 from tacgrasp.lessons.turns.follow_ups import (
     asks_by_how_much,
-    changed_force,
     difference_of,
     in_another_unit,
     leaves_unit_out,
     of_advice,
-    of_another_mass,
     of_both,
-    of_changed_force,
-    of_supposed_force,
     reason_of,
-    unsupposed,
     with_quantity_of,
 )
 from tacgrasp.lessons.turns.leads import without_lead
+from tacgrasp.lessons.turns.masses import of_another_mass
 from tacgrasp.lessons.turns.references import of_number
-from tacgrasp.lessons.turns.rewriting import (
+from tacgrasp.lessons.turns.rewriting import noun_of, rewritten, with_noun
+from tacgrasp.lessons.turns.supposed import (
     about_the_force,
-    noun_of,
-    rewritten,
+    changed_force,
+    of_changed_force,
+    of_supposed_force,
     supposed_in,
-    with_noun,
+    unsupposed,
 )
 from tacgrasp.lessons.turns.told import Told, told_in
 from tacgrasp.lessons.understanding import (

@@ -7,6 +7,6 @@ something near.
 Not here: wordings with their meanings (``tacgrasp.lessons.dialogue.families``), what is left out of
 a question (``tacgrasp.lessons.dialogue.plainer``).
 
-May import: cltp.tactile, policies, tacgrasp.lessons.dialogue,
+May import: primitives, cltp.tactile, policies, tacgrasp.lessons.dialogue,
 tacgrasp.lessons.dialogue.families.classes.
 """

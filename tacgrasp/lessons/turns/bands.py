@@ -1,0 +1,71 @@
+"""Follow-ups about the force band, written anew.
+
+What is its lower end?          And the upper one?  What is the upper end of the band?
+Is the force within the band?   How far off its middle?
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from tacgrasp.lessons.dialogue.meaning import (
+    Amount,
+    Meaning,
+    Several,
+    truth_of,
+)
+from tacgrasp.lessons.turns.leads import END, LEAD, without_lead
+
+_BAND_WORDS = {
+    r"(?:where does it |where's the |the |its |it )*(?:end|ends|stop|stops|(?:upper|high|"
+    r"higher)(?: end| one)?|top)":
+        "What is the upper end of the band?",
+    r"(?:where does it |where's the |the |its |it )*(?:start|starts|begin|begins|low(?:er)?(?: "
+    r"end| one)?|"
+    r"bottom)": "What is the lower end of the band?",
+    r"(?:how (?:wide|broad) (?:is it|does that make it)|(?:the |its )?(?:width|breadth|span))":
+        "What is the width of the band?",
+    r"(?:(?:where|what) is )?(?:the |its )?(?:middle|midpoint|cent(?:er|re)|mean)(?: of (?:it|"
+    r"them|both|"
+    r"the two))?":
+        "What is the middle of the band?",
+}  # fmt: skip
+_BAND_WORD = {
+    re.compile(rf"{LEAD}(?:{words}){END}", re.I): text for words, text in _BAND_WORDS.items()
+}
+"""Follow-ups about the band, once one of its ends was asked for."""
+_OWN_END = re.compile(
+    r"\b(?:the|its|that|this) (?P<which>upper|lower|top|bottom|high|low)(?: (?:end|edge|bound|"
+    r"limit|one)\b"
+    r"(?: of (?:it|that|this)\b)?(?! of)|(?= or )|(?=[?.! ]*$))",
+    re.I,
+)
+HOW_FAR_FROM = re.compile(
+    r"^(?:(?:and|so|ok)[, ]+)*how (?:far|much|many newtons)(?: (?:are we|is that|is it|am i))?"
+    r"(?: away)? (?:from|off|to) ",
+    re.I,
+)
+_PLAIN_END = {"high": "upper", "low": "lower", "top": "upper", "bottom": "lower"}
+_ARE_WE = re.compile(r"^(?:am i|are we)\b", re.I)
+_IN = re.compile(r"(?<=\w )(?:in|inside|within)(?: (?:it|that|there))?(?=[?.! ]*$)", re.I)
+"""'Am I in?', after a band."""
+
+
+def about_the_band(question: str, meant: Meaning | None) -> Iterator[str]:
+    """A short question about the band that was asked for before."""
+    if meant is None or "band_" not in truth_of(meant):
+        return
+    parts = meant.parts if isinstance(meant, Several) else (meant,)
+    if all(isinstance(each, Amount) and each.quantity.startswith("band_") for each in parts):
+        yield from (text for words, text in _BAND_WORD.items() if words.fullmatch(question))
+    own = _OWN_END.sub(
+        lambda end: f"the {_PLAIN_END.get(end['which'].lower(), end['which'])} end of the band",
+        without_lead(question),
+    )
+    own = re.sub(r"\bof (?:it|them)\b", "of the band", own)
+    yield own
+    yield HOW_FAR_FROM.sub("how far is the force from ", own)
+    yield _ARE_WE.sub("Is the force", own)
+    if _IN.search(question):
+        yield _IN.sub("in the band", without_lead(question))

@@ -1,0 +1,107 @@
+"""Follow-ups about another mass, or about the force that a mass needs.
+
+Will it slip at this weight?    And for 80 g?           the question for 80 g
+Will it slip at this weight?    And if it were twice as heavy?
+Is the grip strong enough?      What does it need?      How much force is needed for its mass?
+"""
+
+from __future__ import annotations
+
+import re
+
+from policies.instructions.quantities.numerals import in_digits
+from tacgrasp.lessons.dialogue.meaning import (
+    Amount,
+    AnswerKind,
+    Calculated,
+    Check,
+    Meaning,
+    kind_of,
+    truth_of,
+)
+from tacgrasp.lessons.turns.leads import END, LEAD, without_lead
+from tacgrasp.lessons.turns.units import ANOTHER_NUMBER, NUMBER, STATED, dimension_of
+
+_NEEDED = re.compile(
+    r"(?=.*\b(?:force|grip|squeeze|newtons?|hard|strong|strongly|(?:the )?(?:least|minimum)"
+    r"(?: that)? (?:i|we|you|it))\b)"
+    r"(?!.*\b(?:gravity|pull|pulls|weigh|weighs|push|apply|applying|pressing|is it|is that|are "
+    r"we|have|"
+    r"limit|heaviest|grams?|still|more|less|now)\b)"
+    r"(?=.*\b(?:needs?|needed|requires?|required|minimum|min|least|enough|takes?|surely|sure|"
+    r"safely|do|holds?)\b)"
+    r"(?:(?:and|so|but|then)[, ]+)*(?:(?:with )?how (?:much|many|strong|hard)|what|which|"
+    r"(?:the )?(?:minimum|least|needed|required|grip|force))\b.*",
+    re.I,
+)
+_ANOTHER_THING = re.compile(
+    rf"{LEAD}(?:for |with |of )?(?:an?|the|one|my|our) (?:[a-z'-]+ ){{0,3}}?[a-z'-]+,? "
+    rf"(?:(?:of|with|at|that weighs|weighing) )?(?:about )?{NUMBER}"
+    rf"(?:,? would (?:that(?: one)?|it) (?:hold|slip|stay|work))?{END}",
+    re.I,
+)
+"""'And an ostrich egg, 1400 g?'"""
+_HEAVIER = re.compile(
+    r"(?:(?:what )?if )?(?:it|that|this|the \w+) (?:were|was|is|weighed|weighs|had)(?: really)? "
+    r"(?P<times>twice|half|double|three times|ten times|\d+(?:\.\d+)? times)"
+    r"(?: (?:as (?:heavy|much)|the (?:mass|weight)|that))*|"
+    r"(?:for )?one (?P<one>twice|half) as heavy",
+    re.I,
+)
+_SEVERAL = re.compile(
+    r"(?:(?:would|will|does|do|can) (?:it|that|the grip|this|they|we) (?:still |also )?(?:hold|"
+    r"do|work|"
+    r"suffice|stay|carry|be enough)(?: for| if there were)? |if there were |what about |how "
+    r"about |and )?"
+    r"(?P<count>two|three|four|five|\d)(?: of (?:them|these|those|it))?(?: stuck together| "
+    r"together| "
+    r"at once| instead)?",
+    re.I,
+)
+_HOLDING = re.compile(r"\b(?:hold|do|work|suffice|stay|carry|enough)\b", re.I)
+_COUNTS = {"two": 2, "three": 3, "four": 4, "five": 5}
+_SO_HEAVY = {"twice": 2.0, "double": 2.0, "half": 0.5, "three times": 3.0, "ten times": 10.0}
+
+
+def needed(question: str, before: str, meant: Meaning | None) -> str:
+    """What force the mass needs that was asked about before."""
+    truth = "" if meant is None else truth_of(meant)
+    is_of_mass = any(name in truth for name in ("mass_g", "gram_n", "holds_g"))
+    is_fate = isinstance(meant, Check) and bool(meant.needed_n)
+    if not (is_of_mass or is_fate) or _NEEDED.match(question) is None:
+        return ""
+    masses = [f for f in STATED.finditer(before) if dimension_of(f["unit"]) == "mass"]
+    named = f"{masses[-1]['number']} {masses[-1]['unit']}" if masses else "its mass"
+    return f"How much force is needed for {named}?"
+
+
+def of_a_mass(question: str, before: str, meant: Meaning | None) -> str:
+    """The question before, of another mass than the one that was told."""
+    asked = ANOTHER_NUMBER.fullmatch(in_digits(question)) or _ANOTHER_THING.fullmatch(question)
+    if asked is None or dimension_of(asked["unit"]) != "mass" or meant is None:
+        return ""
+    truth = truth_of(meant)
+    is_of_mass = "mass_g" in truth and not STATED.search(before)
+    return f"{before.rstrip('?.! ')} for {asked['number']} {asked['unit']}?" if is_of_mass else ""
+
+
+def of_another_mass(question: str, asked: Meaning | None) -> Calculated | None:
+    """What was asked before, of an object that is twice as heavy; None of other questions."""
+    words = without_lead(question).rstrip("?.! ")
+    found, several = _HEAVIER.fullmatch(words), _SEVERAL.fullmatch(words)
+    if asked is None or (found is None and several is None):
+        return None
+    truth = truth_of(asked) if isinstance(asked, Amount | Check | Calculated) else ""
+    if "mass_g" not in truth:
+        return None
+    if found:
+        times = (found["times"] or found["one"]).lower()
+        factor = _SO_HEAVY.get(times) or float(times.split()[0])
+    else:
+        assert several is not None
+        count = several["count"].lower()
+        factor = float(_COUNTS.get(count) or count)
+    if several and _HOLDING.search(words) and kind_of(asked) is not AnswerKind.YES_NO:
+        return Calculated(truth=f"force_n >= gram_n * {factor:g} * mass_g", unit=None)
+    unit = asked.unit if isinstance(asked, Amount | Calculated) else None
+    return Calculated(truth=re.sub(r"\bmass_g\b", f"({factor:g} * mass_g)", truth), unit=unit)

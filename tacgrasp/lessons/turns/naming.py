@@ -1,0 +1,137 @@
+"""Follow-ups that name what they are about, or leave only that out, written anew.
+
+What shape is it?               And the texture?        What is the texture?
+Is the surface ridged?          What is it then?        What is the texture?
+My guess is a sphere.           Am I right?             Is it a sphere?
+Is it deep?                     What is the figure?     What is the depth as a number?
+"""
+
+from __future__ import annotations
+
+import re
+
+from cltp.tactile.states import CLASSES
+from tacgrasp.lessons.dialogue.meaning import (
+    Amount,
+    Calculated,
+    Check,
+    Meaning,
+    names_of,
+)
+from tacgrasp.lessons.turns.leads import END, LEAD, uncapital, without_lead
+
+_NAMED = re.compile(
+    rf"{LEAD}(?:wait[, ]+)?(?:not (?:the |in )?\w+, )?"
+    rf"(?:(?:the )?same (?:for|with) |add |tell me |give me |as for |how is |what is )*"
+    rf"(?:the |its |your )*(?P<name>shape|form|texture|surface|depth|force|position|place|"
+    rf"area|size|mass|limit|band)(?: of it)?(?: too| as well| at least)?"
+    rf"(?: i (?:meant|mean|wanted|want))?"
+    rf"(?P<unit>,? in [^\s?.!,]+)?{END}",
+    re.I,
+)
+_CALLS = {"form": "shape", "surface": "texture", "place": "position", "size": "contact area",
+          "area": "contact area"}  # fmt: skip
+_GUESS = re.compile(
+    r"(?:(?:so|well|hm+|ok)[, ]+)*(?:my (?:guess|bet|money) is(?: on)?|"
+    r"i(?:['’]d)? (?:would )?(?:guess|think|say|bet|believe|suppose|reckon)(?: that)?|"
+    r"(?:it|this|that) (?:feels|looks) like)"
+    r"(?: (?:it|that|this)(?:['’]s| is))? (?P<what>[^?.!]+?)[.! ]*",
+    re.I,
+)
+_AM_I_RIGHT = re.compile(
+    r"(?:and[, ]+)?(?:am i|was i|is (?:that|it|this)) (?:right|correct|true|so)[?.! ]*|"
+    r"(?:right|correct|true)[?.! ]*|(?:do|would) you agree[?.! ]*",
+    re.I,
+)
+_WHICH_THEN = re.compile(
+    r"(?:(?:and|so|but|then|ok|no)[, ]+)*(?:what (?:would|do|will) you (?:call|name) it|"
+    r"how would you (?:describe|call|class|name) it|(?:what|which(?: one)?|how) is it|"
+    r"what(?: else)?|what sort|which(?: one)?)(?: then| instead| really| exactly)*"
+    r"(?P<word>[, ]+in (?:one|a|a single) word)?[?.! ]*",
+    re.I,
+)
+_STATED_SO = re.compile(
+    r"(?:so |then |and )*(?:that|this|it)(?:['’]s| is| means it(?:['’]s| is)) (?P<what>.+?)[?.! ]*",
+    re.I,
+)
+_THAT_QUANTITY = re.compile(r"\b(?:that|this) (?P<what>force|depth|area|mass|limit|grip)\b", re.I)
+_FIGURE = re.compile(
+    r"(?:what(?:['’]s| is) (?:the |its )?(?:(?:real|actual|exact|true|precise) )?(?:figure|"
+    r"number|value|"
+    r"reading)|how (?:much|deep|strong|big) is it|(?:the )?exact (?:figure|number|value))"
+    r"(?: then| really| exactly| in fact)*[?.! ]*",
+    re.I,
+)
+ENOUGH = re.compile(
+    r"(?P<verb>\b(?:is|would)\b) (?:it|that|this) (?:be )?(?:strong |firm )?enough(?= to (?:hold|"
+    r"lift|carry))",
+    re.I,
+)
+
+
+def claimed(question: str, before: str) -> str:
+    """'Am I right?' behind a guess, as a question of what was guessed."""
+    claim = _GUESS.fullmatch(before.strip())
+    if claim is None or _AM_I_RIGHT.fullmatch(question) is None:
+        return ""
+    return f"Is it {claim['what']}?"
+
+
+def stated(question: str) -> str:
+    """'So that's in the middle row?' as a question."""
+    found = _STATED_SO.fullmatch(question)
+    return f"Is it {found['what']}?" if found and question.rstrip().endswith("?") else ""
+
+
+def of_that_quantity(question: str, meant: Meaning | None) -> str:
+    """A question of 'that force', where the force was asked for."""
+    found = _THAT_QUANTITY.search(question)
+    name = {"grip": "force"}.get(found["what"].lower(), found["what"].lower()) if found else ""
+    if not found or not isinstance(meant, Amount) or meant.quantity != name:
+        return ""
+    return f"{question[: found.start()]}the {name}{question[found.end() :]}"
+
+
+def figure_of(question: str, meant: Meaning | None) -> str:
+    """The number behind a yes or a no: 'what is the real figure?'."""
+    if _FIGURE.fullmatch(question) is None or not isinstance(meant, Check | Calculated):
+        return ""
+    names = names_of(meant)
+    figures = {"depth_mm": "depth", "depth": "depth", "force_n": "force", "area_percent": "area",
+               "area": "area", "area_mm2": "area"}  # fmt: skip
+    felt = list(dict.fromkeys(figures[name] for name in names if name in figures))
+    return f"What is the {felt[0]} as a number?" if len(felt) == 1 else ""
+
+
+def which_then(question: str, meant: Meaning | None) -> str:
+    """The word for what was asked about with a yes or no: 'what would you call it?'."""
+    shown = meant.shows if isinstance(meant, Check) else ()
+    names = {"shape": "shape", "texture": "texture", "depth_word": "depth", "area_word": "area",
+             "position": "position"}  # fmt: skip
+    name = names.get(shown[0], "") if len(shown) == 1 else ""
+    if isinstance(meant, Calculated) and meant.unit is None:
+        told = names_of(meant)
+        name = told[0] if len(told) == 1 and told[0] in ("shape", "texture", "position") else ""
+    if not name or _WHICH_THEN.fullmatch(question) is None:
+        return ""
+    if name in ("depth", "area"):
+        return f"What is the {name} in one word?"
+    return f"What is the {name}?"
+
+
+def of_named_class(question: str, meant: Meaning | None) -> str:
+    """A follow-up that names a class of the depth or the area that was asked about."""
+    shown = meant.shows if isinstance(meant, Check) else ()
+    dimension = {"depth_word": "depth", "area_word": "area"}.get(shown[0] if shown else "", "")
+    words = without_lead(question).rstrip("?.! ")
+    words = re.sub(r"^(?:how|what) about (?:an? )?", "", words, flags=re.I)
+    is_named = any(re.search(rf"\b{word}\b", words, re.I) for word in CLASSES.get(dimension, ()))
+    return f"Is the {dimension} {uncapital(words)}?" if is_named else ""
+
+
+def named_alone(question: str) -> str:
+    """A follow-up that is but the name of something felt or agreed."""
+    if (asked := _NAMED.fullmatch(question)) is None:
+        return ""
+    name = asked["name"].lower()
+    return f"What is the {_CALLS.get(name, name)}{(asked['unit'] or '').lstrip(',')}?"

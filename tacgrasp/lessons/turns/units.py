@@ -1,0 +1,58 @@
+"""Numbers and units as follow-ups write them.
+
+Not here: the units of answers (``tacgrasp.lessons.dialogue.quantities``).
+"""
+
+from __future__ import annotations
+
+import re
+
+from tacgrasp.lessons.dialogue.quantities import UNITS
+from tacgrasp.lessons.turns.leads import END, LEAD
+
+_UNIT_WORDS = {
+    "N": r"N|newtons?",
+    "mN": r"mN|millinewtons?",
+    "g": r"g|grams?|gr",
+    "kg": r"kg|kilos?|kilograms?",
+    "oz": r"oz|ounces?",
+    "lb": r"lbs?|pounds?",
+    "%": r"%|percent|per cent",
+    "mm": r"mm|millimet(?:re|er)s?",
+    "µm": r"µm|um|microns?|micromet(?:re|er)s?",
+    "cm": r"cm|centimet(?:re|er)s?",
+    "mm²": r"mm²|mm2|square millimet(?:re|er)s?",
+    "kPa": r"kPa|kilopascals?",
+    "thou": r"thou",
+    "in": r"inch|inches",
+    "cN": r"cN|centinewtons?",
+    "lbf": r"lbf|pounds?[ -]force",
+    "kgf": r"kgf",
+    "cm²": r"cm²|cm2|square centimet(?:re|er)s?",
+}
+NUMBER = rf"(?P<number>\d+(?:[.,]\d+)?)(?:\s*(?P<unit>{'|'.join(_UNIT_WORDS.values())})(?!\w))?"
+STATED = re.compile(rf"(?<![\w.,]){NUMBER}(?!\w|\.\d)", re.I)
+ANOTHER_NUMBER = re.compile(
+    rf"{LEAD}(?:if (?:i|we|you) )?(?:(?:add|added|by|with|for|at|to|of|over|above|below|under|"
+    rf"(?:(?:more|less|deeper|higher|lower) )?than|it's|it is|it were|it weighs|only|a|an|about|"
+    rf"one|full|whole|even)\s+)*{NUMBER}"
+    rf"(?: (?:added|on top|off|one|1|object|part|piece|thing))?{END}",
+    re.I,
+)
+
+
+def dimension_of(unit: str | None) -> str:
+    """What a unit as it is written measures; '' of none."""
+    if not unit:
+        return ""
+    return UNITS[symbol].dimension if (symbol := unit_symbol(unit)) else ""
+
+
+def unit_symbol(written: str) -> str:
+    """The unit of a word, as queries write it; '' of none that follow-ups know."""
+    # 'mn' is no unit: a unit's own letters count first
+    for flags in (re.NOFLAG, re.I):
+        for symbol, words in _UNIT_WORDS.items():
+            if re.fullmatch(words, written, flags):
+                return symbol
+    return ""
