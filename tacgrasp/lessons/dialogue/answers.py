@@ -190,7 +190,7 @@ def _calculated(asked: Calculated, scene: AskedScene) -> Answer:
         return Answer(text=BY_NOTHING, kind=AnswerKind.UNKNOWABLE, decidable=False)
     if asked.unit is not None:
         is_count = isinstance(value, int) and not asked.unit
-        text = str(value) if is_count else value_text(float(value), asked.unit)
+        text = str(int(value)) if is_count else value_text(float(value), asked.unit)
         return Answer(text=f"{text}.", kind=kind, value=number_in(text), unit=asked.unit)
     is_of_band = any(test in asked.truth for test in _BAND_TESTS)
     shown = [FACT_OF[name] for name in names_of(asked) if name in FACT_OF]

@@ -34,7 +34,8 @@ from tacgrasp.lessons.turns.leads import without_lead
 from tacgrasp.lessons.turns.units import unit_symbol
 
 _BY_HOW_MUCH = re.compile(
-    r"(?:by (?:how much|how many \w+|what|which margin|what margin|what amount)|how (?:much|many "
+    r"(?:with how much to spare(?:,? or missing)?|by (?:how much|how many \w+|what|which margin|"
+    r"what margin|what amount)|how (?:much|many "
     r"\w+)"
     r"(?: (?:over|under|above|below|more|less|too (?:much|little|high|low)))?"
     r"(?: (?:is|are)(?: there)? (?:still )?(?:missing|lacking|left|short|to spare|in hand))?|"
@@ -42,6 +43,7 @@ _BY_HOW_MUCH = re.compile(
     r"the two))?(?: (?:off|away|short|over|apart))?|"
     r"how (?:much|far|large|big) is the (?:difference|gap|margin))"
     r"(?: (?:is (?:it|that)|exactly|precisely|roughly|about))*"
+    r"(?: from (?:the )?(?:middle|cent(?:er|re)|midline|it))?"
     r"(?P<floor>[ ,(–-]+(?:zero|0|nothing) (?:if|when|for) .+)?[?.! )]*",
     re.I,
 )
@@ -53,6 +55,7 @@ _BARE_NUMBER = re.compile(r"(?<=\s)(?P<number>\d+(?:\.\d+)?)(?=[?.! ]*$)")
 _IN_UNIT = re.compile(
     r"(?:(?:how (?:much|many)|what(?: (?:weight|force|mass|length))?)"
     r"(?:(?: is|['’]s| would)(?: (?:it|that|this))?(?: be)?)?[, ]+)?"
+    r"(?:(?:can|could) (?:i|you) (?:have|give me|get|say|express) (?:that|it)(?: again)? )?"
     r"(?:(?:i (?:wanted|want|meant|mean|need)|give me|make (?:it|that)|say it) )?"
     r"(?:as an? (?:weight|force|mass) )?(?:in |as )?(?:plain )?(?P<unit>[^\d\s?.!,]+(?: "
     r"[a-z]+)?)(?: of (?:weight|force))?"
@@ -154,6 +157,8 @@ def in_another_unit(question: str, asked: Meaning) -> Meaning | None:
     truth = f"({truth_of(asked)})"
     if isinstance(asked, Amount):
         own = UNITS[QUANTITIES[asked.quantity].unit].dimension
+    if isinstance(asked, Amount) and (own, other) == ("fraction", "area"):
+        return replace(asked, unit=symbol)
     if (own, other) == ("force", "mass"):
         return Calculated(truth=f"{truth} / {GRAVITY_N_PER_G}", unit=symbol)
     if (own, other) == ("mass", "force"):

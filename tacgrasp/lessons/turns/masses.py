@@ -23,7 +23,7 @@ from tacgrasp.lessons.turns.leads import END, LEAD, without_lead
 from tacgrasp.lessons.turns.units import ANOTHER_NUMBER, NUMBER, STATED, dimension_of
 
 _NEEDED = re.compile(
-    r"(?=.*\b(?:force|grip|squeeze|newtons?|hard|strong|strongly|(?:the )?(?:least|minimum)"
+    r"(?=.*\b(?:force|grip|squeeze|newtons?|hard|strong|strongly|n|(?:the )?(?:least|minimum)"
     r"(?: that)? (?:i|we|you|it))\b)"
     r"(?!.*\b(?:gravity|pull|pulls|weigh|weighs|push|apply|applying|pressing|is it|is that|are "
     r"we|have|"
@@ -45,7 +45,8 @@ _HEAVIER = re.compile(
     r"(?:(?:what )?if )?(?:it|that|this|the \w+) (?:were|was|is|weighed|weighs|had)(?: really)? "
     r"(?P<times>twice|half|double|three times|ten times|\d+(?:\.\d+)? times)"
     r"(?: (?:as (?:heavy|much)|the (?:mass|weight)|that))*|"
-    r"(?:for )?one (?P<one>twice|half) as heavy",
+    r"(?:for )?one (?P<one>twice|half) as heavy|"
+    r"(?:for )?(?P<that>twice|double|half|three times) (?:that|the|this) (?:mass|weight)",
     re.I,
 )
 _SEVERAL = re.compile(
@@ -58,6 +59,7 @@ _SEVERAL = re.compile(
     r"at once| instead)?",
     re.I,
 )
+_GRAMS = re.compile(r"\b(?P<each>gram_n|0\.0205) \* (?P<grams>\d+(?:\.\d+)?)")
 _HOLDING = re.compile(r"\b(?:hold|do|work|suffice|stay|carry|enough)\b", re.I)
 _COUNTS = {"two": 2, "three": 3, "four": 4, "five": 5}
 _SO_HEAVY = {"twice": 2.0, "double": 2.0, "half": 0.5, "three times": 3.0, "ten times": 10.0}
@@ -78,11 +80,15 @@ def needed(question: str, before: str, meant: Meaning | None) -> str:
 def of_a_mass(question: str, before: str, meant: Meaning | None) -> str:
     """The question before, of another mass than the one that was told."""
     asked = ANOTHER_NUMBER.fullmatch(in_digits(question)) or _ANOTHER_THING.fullmatch(question)
-    if asked is None or dimension_of(asked["unit"]) != "mass" or meant is None:
+    if asked is None or meant is None or dimension_of(asked["unit"] or "g") != "mass":
         return ""
     truth = truth_of(meant)
     is_of_mass = "mass_g" in truth and not STATED.search(before)
-    return f"{before.rstrip('?.! ')} for {asked['number']} {asked['unit']}?" if is_of_mass else ""
+    return (
+        f"{before.rstrip('?.! ')} for {asked['number']} {asked['unit'] or 'g'}?"
+        if is_of_mass
+        else ""
+    )
 
 
 def of_another_mass(question: str, asked: Meaning | None) -> Calculated | None:
@@ -92,10 +98,11 @@ def of_another_mass(question: str, asked: Meaning | None) -> Calculated | None:
     if asked is None or (found is None and several is None):
         return None
     truth = truth_of(asked) if isinstance(asked, Amount | Check | Calculated) else ""
-    if "mass_g" not in truth:
+    truth = _GRAMS.sub(r"\g<each> * (\g<grams> * 1)", truth) if "mass_g" not in truth else truth
+    if "mass_g" not in truth and " * 1)" not in truth:
         return None
     if found:
-        times = (found["times"] or found["one"]).lower()
+        times = (found["times"] or found["one"] or found["that"]).lower()
         factor = _SO_HEAVY.get(times) or float(times.split()[0])
     else:
         assert several is not None
@@ -104,4 +111,5 @@ def of_another_mass(question: str, asked: Meaning | None) -> Calculated | None:
     if several and _HOLDING.search(words) and kind_of(asked) is not AnswerKind.YES_NO:
         return Calculated(truth=f"force_n >= gram_n * {factor:g} * mass_g", unit=None)
     unit = asked.unit if isinstance(asked, Amount | Calculated) else None
-    return Calculated(truth=re.sub(r"\bmass_g\b", f"({factor:g} * mass_g)", truth), unit=unit)
+    heavier = re.sub(r"\bmass_g\b", f"({factor:g} * mass_g)", truth)
+    return Calculated(truth=heavier.replace(" * 1)", f" * {factor:g})"), unit=unit)

@@ -16,7 +16,9 @@ from tacgrasp.lessons.dialogue.meaning import (
     Calculated,
     Check,
     Meaning,
+    Which,
     names_of,
+    truth_of,
 )
 from tacgrasp.lessons.turns.leads import END, LEAD, uncapital, without_lead
 
@@ -103,6 +105,43 @@ def figure_of(question: str, meant: Meaning | None) -> str:
     return f"What is the {felt[0]} as a number?" if len(felt) == 1 else ""
 
 
+_WHAT_LIKE = re.compile(
+    rf"{LEAD}(?:the |its |your )?(?P<name>shape|form|texture|surface|depth|force|position|place|"
+    rf"area),? "
+    r"(?:what(?:['’]s| is) (?:that|it)(?: like)?|how (?:is|does) (?:that|it)(?: feel)?|"
+    r"(?:that |which )?(?:we|you|i) (?:have|feel|apply|press with)(?: on it)?)[?.! ]*",
+    re.I,
+)
+_IN_A_WORD = re.compile(
+    r"(?:in |as )?(?:one|a|a single|the) word(?: for (?:that|it|this))?[?.! ]*", re.I
+)
+_IN_PLACE = re.compile(r"(?:in|on|at) the [^?]+\?", re.I)
+
+
+def what_like(question: str) -> str:
+    """'And its surface, what's that like?' as a question for it."""
+    found = _WHAT_LIKE.fullmatch(question)
+    if found is None:
+        return ""
+    name = found["name"].lower()
+    return f"What is the {_CALLS.get(name, name)}?"
+
+
+def in_a_word(question: str, meant: Meaning | None) -> str:
+    """'One word for that?' behind a depth or an area."""
+    is_word = _IN_A_WORD.fullmatch(without_lead(question)) is not None
+    name = meant.quantity if isinstance(meant, Amount) else ""
+    return f"What is the {name} in one word?" if is_word and name in ("depth", "area") else ""
+
+
+def in_that_place(question: str, meant: Meaning | None) -> str:
+    """'In the right third?', where the place was asked for before."""
+    core = without_lead(question)
+    names = set() if meant is None or not truth_of(meant) else set(names_of(meant))
+    is_place = names and names <= {"position", "x_mm", "y_mm", "pad_width_mm", "pad_height_mm"}
+    return f"Is it {uncapital(core)}" if is_place and _IN_PLACE.fullmatch(core) else ""
+
+
 def which_then(question: str, meant: Meaning | None) -> str:
     """The word for what was asked about with a yes or no: 'what would you call it?'."""
     shown = meant.shows if isinstance(meant, Check) else ()
@@ -122,8 +161,11 @@ def which_then(question: str, meant: Meaning | None) -> str:
 def of_named_class(question: str, meant: Meaning | None) -> str:
     """A follow-up that names a class of the depth or the area that was asked about."""
     shown = meant.shows if isinstance(meant, Check) else ()
+    if isinstance(meant, Which) and meant.name in ("depth", "area"):
+        shown = (f"{meant.name}_word",)
     dimension = {"depth_word": "depth", "area_word": "area"}.get(shown[0] if shown else "", "")
     words = without_lead(question).rstrip("?.! ")
+    words = re.sub(r",? in other words$|['\"“”]", "", words)
     words = re.sub(r"^(?:how|what) about (?:an? )?", "", words, flags=re.I)
     is_named = any(re.search(rf"\b{word}\b", words, re.I) for word in CLASSES.get(dimension, ()))
     return f"Is the {dimension} {uncapital(words)}?" if is_named else ""

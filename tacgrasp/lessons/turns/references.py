@@ -16,15 +16,16 @@ from dataclasses import replace
 from tacgrasp.lessons.dialogue.calculations.asked import asked_words
 from tacgrasp.lessons.dialogue.calculations.calculated import calculated, calculated_about
 from tacgrasp.lessons.dialogue.calculations.terms import PLAIN, Term, alike
-from tacgrasp.lessons.dialogue.meaning import Amount, Calculated, Meaning, truth_of
+from tacgrasp.lessons.dialogue.meaning import Amount, Calculated, Check, Meaning, truth_of
 from tacgrasp.lessons.dialogue.plainer import in_words
-from tacgrasp.lessons.dialogue.quantities import QUANTITIES, UNITS
+from tacgrasp.lessons.dialogue.quantities import GRAVITY_N_PER_G, QUANTITIES, UNITS
 from tacgrasp.lessons.turns.leads import without_lead
 
 _POINTS = re.compile(r"\b(?:that|this|it|those|these|the result|the same)\b", re.I)
 
 _WOULD_BE = (
-    r"(?:(?:what|how much|how many \S+|which) (?:would|will|is|does|do|are|makes?) )?"
+    r"(?:what (?:would|will|is) be |(?:what|how much|how many \S+|which) (?:would|will|is|does|"
+    r"do|are|makes?) )?"
     r"{}(?: (?:would|will|does|do|is|(?:what|how much) (?:would|will|is)))?(?: it| that)?"
     r"(?: (?:be|make|come to|give|read|mean))?"
 )
@@ -66,6 +67,12 @@ _SUM = re.compile(
 PARTS = {"a quarter": "25", "a third": "33.3333", "half": "50", "a half": "50", "a tenth": "10",
          "a fifth": "20", "two thirds": "66.6667", "three quarters": "75"}  # fmt: skip
 _PARTS = re.compile(rf"(?<=than )(?:{'|'.join(PARTS)})\b(?! of)")
+_THAT_IS = re.compile(
+    r"^(?:that|this|it)(?:['’]s| is) (?P<what>.+?)(?:, is(?:n['’]?t)? (?:it|that)(?: not)?)?$"
+)
+_OFF = re.compile(
+    r"how (?:far|much) (?:off|short|away)(?: (?:am i|are we|is it|is that))?(?:,? in N)?", re.I
+)
 _HOW_FAR = re.compile(r"^how (?:far|much) (?P<way>from|off|above|below) (?:it|that)$")
 _DISTANCE = re.compile(
     r"(?:(?:what is|the|absolute|its) )*(?:distance|difference|gap|margin) (?:to|from) (?P<what>.+)"
@@ -100,7 +107,11 @@ def of_number(question: str, about: Meaning | None, earlier: Meaning | None) -> 
     term, unit = _number(about)
     if term is None:
         return None
+    is_bound = term.dimension == "force" and "force_n" not in term.expression
+    if is_bound and _OFF.fullmatch(without_lead(question).strip(" ?.!")):
+        return Calculated(truth=f"abs(force_n - {term.factor})", unit=unit)
     core = in_words(without_lead(question)).lower().strip(" ?.!")
+    core = _THAT_IS.sub(r"is that \g<what>", core)
     if term.dimension == "fraction":
         core = _PARTS.sub(lambda part: f"{PARTS[part[0]]} %", core)
     core = _HOW_FAR.sub(r"how far is the force \g<way> it", core)
@@ -142,6 +153,17 @@ def _felt(term: Term, earlier: Meaning | None) -> Term:
     return other if other is not None and is_made_of else term
 
 
+_COMPARED = re.compile(r"(?P<name>\w+) (?:>=|<=|>|<) \S+ (?P<unit>\S+)")
+
+
+def compared_in(meant: Meaning) -> Amount | None:
+    """The number that a yes or a no was about: the depth, of 'is it over 0.6 mm?'; None of none."""
+    found = _COMPARED.fullmatch(meant.test) if isinstance(meant, Check) else None
+    if found is None or found["name"] not in QUANTITIES or found["unit"] not in UNITS:
+        return None
+    return Amount(quantity=found["name"], unit=found["unit"])
+
+
 def _calculated(core: str, term: Term, unit: str) -> Calculated | None:
     """What is calculated of a pronoun that stands for a number."""
     asked = asked_words(core)
@@ -175,7 +197,14 @@ def _number(meaning: Meaning | None) -> tuple[Term | None, str]:
         return None, ""
     truth, unit = truth_of(meaning), meaning.unit
     if isinstance(meaning, Amount):
-        dimension = UNITS[QUANTITIES[meaning.quantity].unit].dimension
+        dimension = UNITS[unit].dimension
+        own = UNITS[QUANTITIES[meaning.quantity].unit].dimension
+        if (own, dimension) == ("force", "mass"):
+            truth = f"({truth}) / {GRAVITY_N_PER_G}"
+        elif (own, dimension) == ("fraction", "area"):
+            truth = truth.replace("area_percent", "area_mm2")
+        elif own != dimension:
+            return None, ""
     elif unit:
         dimension = UNITS[unit].dimension if unit in UNITS else unit
     else:

@@ -28,10 +28,13 @@ from tacgrasp.lessons.turns.naming import (
     ENOUGH,
     claimed,
     figure_of,
+    in_a_word,
+    in_that_place,
     named_alone,
     of_named_class,
     of_that_quantity,
     stated,
+    what_like,
     which_then,
 )
 from tacgrasp.lessons.turns.places import (
@@ -95,6 +98,9 @@ def rewritten(question: str, before: str, meant: Meaning | None, noun: str) -> I
         still_under(question, noun),
         figure_of(question, meant),
         which_then(question, meant),
+        what_like(question),
+        in_a_word(question, meant),
+        in_that_place(question, meant),
         about_the_pad(question, meant),
         *about_place(question, before, meant),
         with_another_side(question, before),
@@ -116,10 +122,18 @@ def rewritten(question: str, before: str, meant: Meaning | None, noun: str) -> I
             yield text
 
 
+_MORE = re.compile(r"\b(?:more|over|above|at least|deeper|higher|exceed\w*|heavier|beyond)\b", re.I)
+_LESS = re.compile(r"\b(?:less|under|below|at most|shallower|lower|lighter)\b", re.I)
+
+
 def _with_another_number(question: str, before: str) -> str:
     """The question before with the number of a follow-up, in its unit where that has none."""
     asked = ANOTHER_NUMBER.fullmatch(in_digits(question))
-    if asked is None:
+    if (
+        asked is None
+        or (_MORE.search(before) and _LESS.search(question))
+        or (_LESS.search(before) and _MORE.search(question))
+    ):
         return ""
     dimension = dimension_of(asked["unit"])
     for found in reversed(list(STATED.finditer(before))):

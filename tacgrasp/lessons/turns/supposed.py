@@ -42,12 +42,14 @@ _THEN = re.compile(r",? ?\bthen\b", re.I)
 _SUBJECT = re.compile(r"\b(?P<verb>is|are|would|will|does|do) (?:it|that|this)\b", re.I)
 _STILL_UNDER = re.compile(
     r"(?:and )?(?P<if>(?:if|with|assume|suppose) [^,?]*?(?:\.\d+[^,?]*?)?)[,.:] "
-    r"(?:is (?:it|that) |are we )?(?:still )?(?P<side>over|under|above|below)"
+    r"(?:is (?:it|that) |are we |do we |would we )?(?:still )?(?:stay |be )?(?P<side>over|under|"
+    r"above|below)"
     r"(?: (?:it|that))?(?: then| still)?[?.! ]*",
     re.I,
 )
 _WITH_FORCE = re.compile(
-    r"(?:if (?:i|we|you) )?(?:with |at |assume |suppose |assuming )?(?:(?:add|adding|squeeze|press|"
+    r"(?:(?:what|how) about )?(?:if (?:i|we|you) )?(?:with |at |assume |suppose |assuming "
+    r")?(?:(?:add|adding|squeeze|press|"
     r"grip) )?(?P<number>\d+(?:\.\d+)?)(?: ?(?P<unit>N|newtons?|mN|millinewtons?))? "
     r"(?P<way>more|less|extra|harder|softer|on top|off|added|fewer)"
     r"(?: (?:force|grip|than(?: (?:now|that|measured|at present))?|squeeze))*(?:[, ]+instead)?",

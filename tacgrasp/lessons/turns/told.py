@@ -128,7 +128,7 @@ _SENTENCE = re.compile(r"(?<=[.!?])(?<!\d\.)\s+(?=\S)")
 _ASKS = re.compile(
     rf"(?:(?:and|so|but|then|ok|now|please|well)[, ]+)*(?:{AUXILIARY}(?:n['’]?t)?|what|which|how|"
     r"where|why|when|who|by how|tell|give|say|list|report|log|state|name|show|describe|compare|"
-    r"confirm|check|verify|add|take|press|squeeze|true|false|pass|fail|if|assume|answer|pick|"
+    r"confirm|check|verify|add|take|press|squeeze|true|false|pass|fail|if|answer|pick|"
     r"choose|express|convert|more|less|over|under|above|below|and|half|twice|"
     r"(?:at|with|for|in)\b(?!.*\b(?:is|are|was|weighs?|wants?|set|have|has)\b))\b",
     re.I,
@@ -137,13 +137,14 @@ _ASKS = re.compile(
 
 _STATES = re.compile(
     r"(?:\b(?:is|are|was|weighs?|weighed|runs?|has|have|had|got|handling|holding|gripping|took|"
-    r"wants?|need|needs|set|each|apiece|says?|told|cracks?|breaks?|bruises?|crush\w*|max|limit|"
+    r"wants?|need|needs|set|keep|keeping|assume|caps?|allows?|permits?|each|apiece|says?|told|"
+    r"cracks?|breaks?|bruises?|crush\w*|max|limit|"
     r"never|pretend|imagine|suppose|recipe)\b|['’](?:s|re|ve)\b)",
     re.I,
 )
 """What a statement has, and a question without its mark has not: 'grip strong enough for 25 g'."""
 
-_SUPPOSES = re.compile(r"(?:(?:and|now|so)[, ]+)*(?:suppose|supposing|say|imagine)\b", re.I)
+_SUPPOSES = re.compile(r"(?:(?:and|now|so)[, ]+)*(?:suppose|supposing|assume|say|imagine)\b", re.I)
 _IS_MASS = re.compile(
     r"(?<![\w.,])(?P<number>\d+(?:[.,]\d+)?)[ -]?(?P<unit>g|grams?|gr|kg|kilos?|kilograms?|"
     r"oz|ounces?|lbs?|pounds?)\b(?![ -]?(?:force|of force))",
@@ -159,7 +160,7 @@ _IS_FORCE = re.compile(
     rf"(?<![\w.,])(?P<number>\d+(?:[.,]\d+)?) ?{_FORCE_UNIT.format('unit')}", re.I
 )
 _BOUNDS = re.compile(
-    r"\b(?:limit\w*|max\w*|never|no more|not more|(?:don['’]?t|do not|must not|mustn['’]?t|"
+    r"\b(?:limit\w*|max\w*|caps?|never|no more|not more|(?:don['’]?t|do not|must not|mustn['’]?t|"
     r"can['’]?t) (?:\w+ ){0,3}?(?:more|exceed|above|over|beyond)|at most|ceiling|cap|"
     r"(?:cracks?|breaks?|bruises?|crush\w*|bursts?|splits?|gives way) (?:above|over|at|beyond|"
     r"from|past)|"

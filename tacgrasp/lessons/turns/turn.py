@@ -28,7 +28,7 @@ from tacgrasp.lessons.turns.follow_ups import (
 )
 from tacgrasp.lessons.turns.leads import without_lead
 from tacgrasp.lessons.turns.masses import of_another_mass
-from tacgrasp.lessons.turns.references import of_number
+from tacgrasp.lessons.turns.references import compared_in, of_number
 from tacgrasp.lessons.turns.rewriting import noun_of, rewritten, with_noun
 from tacgrasp.lessons.turns.supposed import (
     about_the_force,
@@ -185,6 +185,8 @@ def _telling(text: str, before: Turn) -> Turn | None:
         return None
     told, asked = found
     read = understood_by_grammar(asked) if asked else None
+    if read is None and told.is_supposed and not asked and before.about is not None:
+        return replace(before.then(before.text, _read_so(before.about)), told=told)
     if read is None and (asked or told.is_supposed):
         return None
     if read is not None:
@@ -205,7 +207,7 @@ def _by_meaning(question: str, before: Turn, about: Meaning) -> ReadQuestion | N
     elif unit := in_another_unit(question, about):
         meaning = unit
     elif kind_of(about) in _OF_NUMBERS and (
-        by_number := of_number(question, before.number, before.earlier)
+        by_number := of_number(question, compared_in(about) or before.number, before.earlier)
     ):
         meaning = by_number
     elif by_advice := of_advice(question, about):

@@ -33,7 +33,8 @@ _UNIT_WORDS = {
 NUMBER = rf"(?P<number>\d+(?:[.,]\d+)?)(?:\s*(?P<unit>{'|'.join(_UNIT_WORDS.values())})(?!\w))?"
 STATED = re.compile(rf"(?<![\w.,]){NUMBER}(?!\w|\.\d)", re.I)
 ANOTHER_NUMBER = re.compile(
-    rf"{LEAD}(?:if (?:i|we|you) )?(?:(?:add|added|by|with|for|at|to|of|over|above|below|under|"
+    rf"{LEAD}(?:(?:the )?same(?: question| again| thing)? )?(?:if (?:i|we|you) )?(?:(?:add|added|"
+    rf"by|with|for|at|to|of|over|above|below|under|"
     rf"(?:(?:more|less|deeper|higher|lower) )?than|it's|it is|it were|it weighs|only|a|an|about|"
     rf"one|full|whole|even)\s+)*{NUMBER}"
     rf"(?: (?:added|on top|off|one|1|object|part|piece|thing))?{END}",

@@ -42,6 +42,11 @@ _STEPS: tuple[tuple[re.Pattern[str], tuple[str, ...]], ...] = tuple(
             (_UP, _DOWN, _LEFT, _RIGHT),
         ),
         (
+            r"chang(?:e|es|ing)(?: of| in)?(?: the)? force|force change|(?:raise|raising) or "
+            r"lower(?:ing)?",
+            (Primitive.INCREASE_FORCE.value, Primitive.DECREASE_FORCE.value),
+        ),
+        (
             rf"sideways|side to side|horizontally|left or right|{_MOVE} (?:to the )?(?:left or "
             r"(?:to the )?right|right or (?:to the )?left)",
             (_LEFT, _RIGHT),
@@ -82,7 +87,8 @@ _STEPS: tuple[tuple[re.Pattern[str], tuple[str, ...]], ...] = tuple(
 
 _ADVICE = re.compile(
     r"\b(?:advi[sc]e[ds]?|advising|recommend\w*|suggest\w*|proposed?|your (?:tip|counsel|verdict)|"
-    r"next (?:step|move|action|command)|want (?:me|us|it|the \w+) (?:to )?|tell(?:ing)? me to|"
+    r"next (?:step|move|action|command)|would(?:n['’]?t)? you (?=move|shift|reset|start|let)|"
+    r"want (?:me|us|it|the \w+) (?:to )?|tell(?:ing)? me to|"
     r"have me(?: do)?|(?:do i )?take it(?: that)? you want|(?:system|policy|robot|controller)(?: "
     r"now)? "
     r"(?:call|calls|ask|asks|want|wants)(?: for)?|policy output|call for)\b"
@@ -165,6 +171,9 @@ _LEADS = re.compile(
     r"action|command)|advice|recommendation|what next)[:,–—-]+ ?|"
     r"^(?:if it (?:was|were) your turn(?: now)?|going by your advice|next)[, ]+"
 )
+MOST_CHOICE = 16
+"""Longest choice of steps that is read before anything else [words]. Our choice."""
+
 _ASKS_STEP = re.compile(
     r"^(?:(?:are|is) (?:we|it) to|should (?:i|we|it|the \w+)|would you(?: have (?:me|us))?|do "
     r"you want "
@@ -179,7 +188,8 @@ _LEFT_ALONE = re.compile(
     r"(?:(?:leave|keep) (?:it|the \w+)(?: as it is| alone| be)?|neither(?: of (?:them|these))?|"
     r"none|"
     r"nothing|(?:do )?something (?:else|different|other)|a different (?:one|command|step)|another "
-    r"(?:one|step|command)|not(?: yet)?|nowhere|stay(?: put)?|wait|other)"
+    r"(?:one|step|command)|not(?: yet)?|nowhere|stay(?: put| where (?:i am|it is|we are))?|wait|"
+    r"other)"
 )
 
 
@@ -189,7 +199,11 @@ def _choice_of_steps(words: str) -> Calculated | None:
     rest = words[lead.end() :] if lead else words
     asks = _ASKS_STEP.match(rest)
     behind = _ASKED_BEHIND.search(rest)
-    if not (lead or asks or (behind and _ADVICE.search(words))):
+    is_bare = (
+        re.fullmatch(r"(?:lift|hold)(?: it)?(?: now)? or (?!not[?.! ]*$)[a-z ]+[?.! ]*", words)
+        is not None
+    )
+    if not (lead or asks or is_bare or (behind and _ADVICE.search(words))):
         return None
     rest = rest[asks.end() if asks else 0 : behind.start() if behind else len(rest)]
     parts = [part.strip(" ?.!") for part in re.split(r",? or |, ", rest)]
@@ -210,6 +224,12 @@ def _choice_of_steps(words: str) -> Calculated | None:
 def step_asked(question: str) -> Calculated | None:
     """Whether to move, or to begin again: 'should I shift it?'; None of other questions."""
     words = question.lower().strip()
+    if (
+        " or " in words
+        and len(words.split()) <= MOST_CHOICE
+        and (chosen := _choice_of_steps(words))
+    ):
+        return chosen
     if not _SHOULD.match(words) or re.search(r"\bor\b|\d|\bif\b|\bwhy\b", words):
         return None
     condition = step_condition(_SHOULD.sub("", words))

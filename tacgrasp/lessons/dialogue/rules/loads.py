@@ -73,7 +73,7 @@ _ENOUGH_TO_HOLD = re.compile(
     r"squeeze|hold)|we gripping|i gripping|we squeezing|i squeezing) (?:(?:be|surely|really) )*"
     r"(?:(?:strong |firm |hard |tight |firmly )?enough|sufficient)(?: (?:surely|really))? to "
     r"(?:(?:surely|safely|be sure of|be sure to) )*(?:hold|lift|carry|holding) "
-    r"(?:it|this|(?:the |this |that |my |our )?(?:object|part|thing|piece|item|mass|load|weight))"
+    r"(?:it|this|(?:the |this |that |my |our )?[a-z]+)"
     r"(?: (?:surely|for sure|safely))?"
 )
 _WORKS = re.compile(

@@ -44,7 +44,8 @@ _EARLIER = re.compile(
     r"the (?:touch|grip|lift))\b|\bduring (?:the )?(?:approach|closing|"
     r"last|descent|insertion)\b|"
     r"\b(?:last|previous|prior|former) "
-    r"(?:frame|step|time|touch|reading|second|minute|grasp|contact)\b|"
+    r"(?:frame|step|time|touch|reading|second|minute|grasp|contact|indentation|press|grip|attempt|"
+    r"object|part|try)\b|"
     r"\bthan (?:before|earlier|previously|a (?:moment|second|while) ago|just now)\b"
 )
 _CHANGED = re.compile(

@@ -174,6 +174,8 @@ def _sides(words: str) -> str:
     if _HOW_MANY.search(words) or _NUMBER_OF.search(words):
         named = [side for side in _FOUR if re.search(rf"\b{side}\b", words)]
         return " + ".join(f"cut_{side}" for side in named or _FOUR)
+    if re.search(rf"\bmore than one (?:{_SIDES})\b", words):
+        return "cut_left + cut_right + cut_top + cut_bottom > 1"
     if several := _OR_MORE.search(words):
         least = {"one": "1", "two": "2", "three": "3"}[several["count"]]
         return f"cut_left + cut_right + cut_top + cut_bottom >= {least}"

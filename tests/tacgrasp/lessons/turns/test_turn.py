@@ -137,7 +137,7 @@ def test_several_follow_ups_in_a_row_lose_nothing(questions, query):
         ),
         (
             ("What is the force in grams?", "More than 100?"),
-            "calculate force_n > 0.00980665 * 100.",
+            "calculate (force_n) / 0.00980665 > 100.",
         ),
         (
             ("How much force is needed for 60 g?", "Do we have that much?"),
