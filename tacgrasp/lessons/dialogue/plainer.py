@@ -269,6 +269,11 @@ def is_denied_first(question: str) -> bool:
     return _DENIED_FIRST.match(question) is not None
 
 
+_HOWS = re.compile(
+    r"\b(?P<how>(?:how (?:far|deep|big|large|hard|wide|high)|where))['’]s "
+    r"(?=the |it |this |that |my )",
+    re.I,
+)
 _UNIT_BEHIND = re.compile(
     r"\?\s+(?:(?:give it |answer )?in )?(?P<unit>newtons?|N|mN|millinewtons?|mm|millimet(?:re|"
     r"er)s?|"
@@ -279,6 +284,7 @@ _UNIT_BEHIND = re.compile(
 
 def plainer(question: str) -> str:
     """A question without address, thanks and tag, and without the denial that expects 'yes'."""
+    question = _HOWS.sub(r"\g<how> is ", question)
     question = _UNIT_BEHIND.sub(lambda unit: f" in {unit['unit']}?", question)
     text = _THOU.sub("thou", " ".join(_CONSTANT.sub("", question).split()))
     text = _SQUARED.sub(

@@ -132,7 +132,10 @@ _SCALE = re.compile(
 _OPERATIONS: Sequence[tuple[str, re.Pattern[str]]] = tuple(
     (name, re.compile(pattern))
     for name, pattern in (
-        ("between", r"(?:difference|gap|distance|spread|room) between (.+) and (.+)"),
+        (
+            "between",
+            r"(?:difference|gap|distance|spread|room|headroom|margin) between (.+) and (.+)",
+        ),
         ("between", r"difference (?:of|from) (.+) (?:and|to|from) (.+)"),
         ("plus", r"sum of (.+) and (.+)"),
         (

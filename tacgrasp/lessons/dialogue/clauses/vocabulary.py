@@ -52,6 +52,9 @@ _DETERMINERS = words_of("the this that these those my our your his her their a a
 NEGATIONS = frozenset({"not", "never", "no", "nothing", "none", "nor", "neither", "without"})
 
 
+_AT_LEAST = re.compile(r"\bat least(?! (?:one|two|three|half|#))")
+
+
 def all_known(words: Sequence[str], known: frozenset[str], *, may_name: bool = True) -> bool:
     """Whether every word is known, or is the name of some thing.
 
@@ -60,6 +63,8 @@ def all_known(words: Sequence[str], known: frozenset[str], *, may_name: bool = T
         known: Words that its meaning knows, beside those that change nothing.
         may_name: Whether a thing may have a name that nobody foresees: 'the bun'.
     """
+    if "least" not in known and _AT_LEAST.search(" ".join(words)):
+        return False  # 'at least deep' is not 'deep'
     named = set(_names(words, known)) if may_name else set()
     return all(
         word in known or word in FILLERS or place in named for place, word in enumerate(words)

@@ -111,7 +111,7 @@ def of_region(question: str) -> Calculated | None:
     truth = _thirds(words) or _quadrants(words) or _sides(words)
     if not truth and _ASKS_YES.search(words) and " or " not in words:
         truth = _third(words) or _field(words)
-    is_count = "+" in truth and "==" not in truth
+    is_count = "+" in truth and not re.search("[<>=]", truth)
     return Calculated(truth=truth, unit="" if is_count else None) if truth else None
 
 
