@@ -30,6 +30,7 @@ from tacgrasp.lessons.dialogue.meaning import (
 )
 from tacgrasp.lessons.dialogue.quantities import GRAVITY_N_PER_G, QUANTITIES, UNITS, unit_of_name
 from tacgrasp.lessons.dialogue.rules.advised import is_step_advised
+from tacgrasp.lessons.dialogue.scene import HOLDING_N_PER_G
 from tacgrasp.lessons.turns.leads import without_lead
 from tacgrasp.lessons.turns.units import unit_symbol
 
@@ -57,7 +58,7 @@ _IN_UNIT = re.compile(
     r"(?:(?: is|['’]s| would)(?: (?:it|that|this))?(?: be)?)?[, ]+)?"
     r"(?:(?:can|could) (?:i|you) (?:have|give me|get|say|express) (?:that|it)(?: again)? )?"
     r"(?:(?:i (?:wanted|want|meant|mean|need)|give me|make (?:it|that)|say it) )?"
-    r"(?:as an? (?:weight|force|mass) )?(?:in |as )?(?:plain )?(?P<unit>[^\d\s?.!,]+(?: "
+    r"(?:as an? (?:weight|force|mass) )?(?:in |as )?(?:plain )?(?P<unit>[^\d\s?.!,]+2?(?: "
     r"[a-z]+)?)(?: of (?:weight|force))?"
     r"(?: (?:is|would) (?:it|that|this)(?: be)?)?(?:, not \w+)?[?.! ]*",
     re.I,
@@ -113,6 +114,8 @@ def difference_of(asked: Meaning, question: str) -> Calculated | None:
     except ValueError:  # it has several comparisons
         return None
     units = {unit_of_name(name) for name in names}
+    if f"{HOLDING_N_PER_G} * mass_g" in truth or "gram_n" in truth:
+        units = {"N"}  # a mass there stands for the force that surely holds it
     return Calculated(truth=truth, unit=units.pop()) if len(units) == 1 else None
 
 

@@ -64,9 +64,9 @@ _FIGURE = re.compile(
     r"(?: then| really| exactly| in fact)*[?.! ]*",
     re.I,
 )
-ENOUGH = re.compile(
-    r"(?P<verb>\b(?:is|would)\b) (?:it|that|this) (?:be )?(?:strong |firm )?enough(?= to (?:hold|"
-    r"lift|carry))",
+_ENOUGH = re.compile(
+    r"(?P<verb>\b(?:is|would)\b) (?:it|that|this) (?:be )?(?:strong |firm )?enough"
+    r"(?= to (?:surely |safely )?(?:hold|lift|carry))",
     re.I,
 )
 
@@ -116,6 +116,12 @@ _IN_A_WORD = re.compile(
     r"(?:in |as )?(?:one|a|a single|the) word(?: for (?:that|it|this))?[?.! ]*", re.I
 )
 _IN_PLACE = re.compile(r"(?:in|on|at) the [^?]+\?", re.I)
+
+
+def enough_to_hold(question: str) -> str:
+    """'Is it enough to hold the jar?' as a question of the grip."""
+    core = without_lead(question)
+    return _ENOUGH.sub(r"\g<verb> the grip strong enough", core) if _ENOUGH.search(core) else ""
 
 
 def what_like(question: str) -> str:

@@ -30,7 +30,7 @@ _OPPOSITE = {
 _EDGE = r"(?: one| edge| side| rim| border| end| third| half| row| column)"
 _ANOTHER_SIDE = re.compile(
     rf"{LEAD}(?:(?:the )?same(?: \w+)? (?:for|at|to|from) )?(?:(?:up|down) )?"
-    rf"(?:top,? )?(?:on |at |to |from |off |over |of |towards? )?(?:the )?"
+    rf"(?:top,? )?(?:on |at |to |from |off |over |of |towards? )?(?:the |its )?"
     rf"(?P<side>{'|'.join(_SIDES)}){_EDGE}?"
     rf"(?: too| as well)?{END}",
     re.I,

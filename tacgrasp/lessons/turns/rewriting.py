@@ -25,8 +25,8 @@ from tacgrasp.lessons.dialogue.meaning import (
 from tacgrasp.lessons.turns.bands import HOW_FAR_FROM, about_the_band
 from tacgrasp.lessons.turns.masses import needed, of_a_mass
 from tacgrasp.lessons.turns.naming import (
-    ENOUGH,
     claimed,
+    enough_to_hold,
     figure_of,
     in_a_word,
     in_that_place,
@@ -94,7 +94,7 @@ def rewritten(question: str, before: str, meant: Meaning | None, noun: str) -> I
         claimed(question, before),
         stated(question),
         of_that_quantity(question, meant),
-        ENOUGH.sub(r"\g<verb> the grip strong enough", question),
+        enough_to_hold(question),
         still_under(question, noun),
         figure_of(question, meant),
         which_then(question, meant),

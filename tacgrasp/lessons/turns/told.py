@@ -25,10 +25,7 @@ _IF = (
     r"[,:]? )*)(?:(?:note|ok|no|sorry|i mean|i meant|actually|correction|so|now|by the way)"
     r"[,:]? )*"
 )
-_THING = (
-    r"(?:it|this|that|the (?:object|berry|strawberry|fruit|egg|tomato|part|thing|piece|peg|mass|"
-    r"weight))"
-)
+_THING = r"(?:it|this|that|(?:the|my|our|this) (?!limit\b|band\b|force\b)[a-z]+)"
 _TOLD = re.compile(
     rf"{_IF}(?:"
     rf"{_THING} ?(?:weighs|weighed|is|was|'s|has a mass of) (?:about |only |actually )?"
@@ -91,6 +88,7 @@ _CORRECTED = re.compile(
     r"(?:,? (?:instead|then|please|now))*[.!]?",
     re.I,
 )
+_WHAT_IF = re.compile(r"(?:(?:and|but|so)[, ]+)*(?:what )?(?:if|suppose|assuming) ", re.I)
 _BEFORE_IT = re.compile(r"[^\d,.:;?]+[,.:;] +(?=\D)")
 """A clause before what is told: 'It's an egg, so the limit is 1.5 N.'"""
 
@@ -103,6 +101,8 @@ def told_in(text: str, about: Meaning | None = None) -> tuple[Told, str] | None:
         about: What was asked for, or told, before it: what a correction is of.
     """
     text = text.strip()
+    if _WHAT_IF.match(text):
+        text = text.rstrip("? ")
     corrected = _CORRECTED.fullmatch(text)
     if corrected and (what := _told_before(about)):
         text = f"{what} is {corrected['value']}"

@@ -233,6 +233,9 @@ def _read_behind(writer: QueryWriter, question: str, before: Turn) -> Turn:
     core = without_lead(question)
     if core != question and (read := understood_by_grammar(core)):
         return before.then(core, read, is_whole=True)
+    is_whole = _STANDS_ALONE.match(core) or len(core.split()) > FOLLOW_UP_WORDS
+    if core != question and is_whole:
+        return before.then(core, _asked_for(core, understood_by_model(writer, core)), is_whole=True)
     if _FOLLOWS.match(question):
         read = understood(writer, question, before.text)
         return before.then(before.text, _asked_for(question, read))
