@@ -6,13 +6,16 @@ import re
 from dataclasses import dataclass, replace
 
 from tacgrasp.lessons.dialogue.meaning import (
+    Amount,
     AnswerKind,
+    Calculated,
     Description,
     Meaning,
     OffTopic,
     Unknowable,
     Why,
     kind_of,
+    truth_of,
 )
 from tacgrasp.lessons.dialogue.query import query_of
 from tacgrasp.lessons.read_question import ReadQuestion
@@ -225,7 +228,13 @@ def _by_meaning(question: str, before: Turn, about: Meaning) -> ReadQuestion | N
 
 def _read_so(meaning: Meaning) -> ReadQuestion:
     """A follow-up whose meaning was worked out."""
-    return ReadQuestion(query_of(meaning), meaning, CALCULATED_CONFIDENCE)
+    try:
+        query = query_of(meaning)
+    except ValueError:  # it has a number of an earlier question, which no query can name
+        unit = meaning.unit if isinstance(meaning, Amount) else None
+        meaning = Calculated(truth=truth_of(meaning), unit=unit)
+        query = query_of(meaning)
+    return ReadQuestion(query, meaning, CALCULATED_CONFIDENCE)
 
 
 def _read_behind(writer: QueryWriter, question: str, before: Turn) -> Turn:
