@@ -1,7 +1,9 @@
 """Follow-ups about the force band, written anew.
 
-What is its lower end?          And the upper one?  What is the upper end of the band?
-Is the force within the band?   How far off its middle?
+    What is its lower end?          And the upper one?  What is the upper end of the band?
+    Is the force within the band?   How far off its middle?
+
+Not here: the band that a person tells (``tacgrasp.lessons.turns.told``).
 """
 
 from __future__ import annotations
@@ -22,8 +24,7 @@ _BAND_WORDS = {
     r"higher)(?: end| one)?|top)":
         "What is the upper end of the band?",
     r"(?:where does it |where's the |the |its |it )*(?:start|starts|begin|begins|low(?:er)?(?: "
-    r"end| one)?|"
-    r"bottom)": "What is the lower end of the band?",
+    r"end| one)?|bottom)": "What is the lower end of the band?",
     r"(?:how (?:wide|broad) (?:is it|does that make it)|(?:the |its )?(?:width|breadth|span))":
         "What is the width of the band?",
     r"(?:(?:where|what) is )?(?:the |its )?(?:middle|midpoint|cent(?:er|re)|mean)(?: of (?:it|"
@@ -37,8 +38,7 @@ _BAND_WORD = {
 """Follow-ups about the band, once one of its ends was asked for."""
 _OWN_END = re.compile(
     r"\b(?:the|its|that|this) (?P<which>upper|lower|top|bottom|high|low)(?: (?:end|edge|bound|"
-    r"limit|one)\b"
-    r"(?: of (?:it|that|this)\b)?(?! of)|(?= or )|(?=[?.! ]*$))",
+    r"limit|one)\b(?: of (?:it|that|this)\b)?(?! of)|(?= or )|(?=[?.! ]*$))",
     re.I,
 )
 HOW_FAR_FROM = re.compile(

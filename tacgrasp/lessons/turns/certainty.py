@@ -45,16 +45,12 @@ _OF_QUANTITY = re.compile(
     re.I,
 )
 _OF_LAST = re.compile(
-    rf"{_LEAD}(?:"
-    rf"(?:are )?you (?:really |quite |absolutely |completely )?(?:sure|certain)"
-    rf"(?: (?:of|about) {_IT})?|"
-    rf"(?:really |quite )?(?:sure|certain)|really|how sure|is {_IT} {_SURE}|"
-    rf"how {_SURE} (?:are you|is {_IT}|are (?:they|those|those numbers))"
-    rf"(?: (?:of|about|in) {_IT})?|"
-    rf"(?:what is|what's) (?:the |your )?{_SPREAD}(?: of {_IT})?|"
-    rf"how (?:much )?(?:percent )?(?:are )?you sure|how many percent(?: sure)?(?: are you)?|"
-    rf"(?:in )?what range (?:could|can|may|might) {_IT} (?:have|be(?: in)?|lie(?: in)?)"
-    rf"){_END}",
+    rf"{_LEAD}(?:(?:are )?you (?:really |quite |absolutely |completely )?(?:sure|certain)(?: "
+    rf"(?:of|about) {_IT})?|(?:really |quite )?(?:sure|certain)|really|how sure|is {_IT} {_SURE}|"
+    rf"how {_SURE} (?:are you|is {_IT}|are (?:they|those|those numbers))(?: (?:of|about|in) "
+    rf"{_IT})?|(?:what is|what's) (?:the |your )?{_SPREAD}(?: of {_IT})?|how (?:much )?(?:percent "
+    rf")?(?:are )?you sure|how many percent(?: sure)?(?: are you)?|(?:in )?what range (?:could|"
+    rf"can|may|might) {_IT} (?:have|be(?: in)?|lie(?: in)?)){_END}",
     re.I,
 )
 

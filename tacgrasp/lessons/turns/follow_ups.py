@@ -36,16 +36,13 @@ from tacgrasp.lessons.turns.units import unit_symbol
 
 _BY_HOW_MUCH = re.compile(
     r"(?:with how much to spare(?:,? or missing)?|by (?:how much|how many \w+|what|which margin|"
-    r"what margin|what amount)|how (?:much|many "
-    r"\w+)"
-    r"(?: (?:over|under|above|below|more|less|too (?:much|little|high|low)))?"
-    r"(?: (?:is|are)(?: there)? (?:still )?(?:missing|lacking|left|short|to spare|in hand))?|"
-    r"how (?:much|far|many \w+) (?:off|away|short|over|apart)?(?: (?:are|is) (?:we|it|that|they|"
-    r"the two))?(?: (?:off|away|short|over|apart))?|"
-    r"how (?:much|far|large|big) is the (?:difference|gap|margin))"
-    r"(?: (?:is (?:it|that)|exactly|precisely|roughly|about))*"
-    r"(?: from (?:the )?(?:middle|cent(?:er|re)|midline|it))?"
-    r"(?P<floor>[ ,(–-]+(?:zero|0|nothing) (?:if|when|for) .+)?[?.! )]*",
+    r"what margin|what amount)|how (?:much|many \w+)(?: (?:over|under|above|below|more|less|too "
+    r"(?:much|little|high|low)))?(?: (?:is|are)(?: there)? (?:still )?(?:missing|lacking|left|"
+    r"short|to spare|in hand))?|how (?:much|far|many \w+) (?:off|away|short|over|apart)?(?: "
+    r"(?:are|is) (?:we|it|that|they|the two))?(?: (?:off|away|short|over|apart))?|how (?:much|far|"
+    r"large|big) is the (?:difference|gap|margin))(?: (?:is (?:it|that)|exactly|precisely|roughly|"
+    r"about))*(?: from (?:the )?(?:middle|cent(?:er|re)|midline|it))?(?P<floor>[ ,(–-]+(?:zero|0|"
+    r"nothing) (?:if|when|for) .+)?[?.! )]*",
     re.I,
 )
 _COMPARED = re.compile(r"(?:not \()?(?P<a>[^<>='\"]+?) [<>]=? (?P<b>[^<>='\"]+?)\)?")
@@ -69,13 +66,11 @@ _OPENS = re.compile(r"(?:what|which|how|where|why|when|who)\b", re.I)
 _OF_SIDE = {"side_x": "x_mm", "side_y": "y_mm"}
 """Offsets behind the word for a side."""
 _BOTH = re.compile(
-    r"(?:are |is |do |does )?(?P<all>both|all|the two|all of (?:them|those|these)|both of "
-    r"(?:them|those|"
-    r"these))(?: (?:conditions|things|checks))?(?: (?:true|met|hold|holds|fulfilled|satisfied|"
-    r"fine|ok|"
-    r"okay|the case|given))?|(?:is |are )?(?:at least one|either|one)(?: of (?:them|those|these|"
-    r"the two|"
-    r"those two))?(?: (?:true|met|fulfilled|the case))?|(?P<none>neither)(?: of (?:them|those))?",
+    r"(?:are |is |do |does )?(?P<all>both|all|the two|all of (?:them|those|these)|both of (?:them|"
+    r"those|these))(?: (?:conditions|things|checks))?(?: (?:true|met|hold|holds|fulfilled|"
+    r"satisfied|fine|ok|okay|the case|given))?|(?:is |are )?(?:at least one|either|one)(?: of "
+    r"(?:them|those|these|the two|those two))?(?: (?:true|met|fulfilled|the case))?|"
+    r"(?P<none>neither)(?: of (?:them|those))?",
     re.I,
 )
 

@@ -5,12 +5,14 @@ from __future__ import annotations
 import re
 
 _FIRST = re.compile(
-    r"\A(?:(?:and|n|but|or|so|ok|okay|well|then|now|no|yes|hm+|ah|oh|right|cool|nice|good|great|"
-    r"fine|thanks|thank you|sorry|fair enough|alright|all right|got it|i see|interesting|"
-    r"just|also|next|still|actually|wait|hang on|hold on|back to (?:the \w+|mine|it))"
-    r"(?:[,.:;!]+ *| +-+ +| +)(?=\S))+",
+    r"\A(?:(?:(?:and|n|but|or|so|ok|okay|then|now)(?:[,.:;!]+ *| +-+ +| +)|"
+    r"(?:well|no|yes|hm+|ah|oh|right|cool|nice|good|great|fine|thanks|thank you|sorry|fair enough|"
+    r"alright|all right|got it|i see|interesting|just|also|next|still|actually|wait|hang on|"
+    r"hold on|back to (?:the \w+|mine|it))(?:[,.:;!]+ *| +-+ +))(?=\S))+",
     re.I,
 )
+"""'No contact?' keeps its 'no', 'No, the depth' does not."""
+
 _LAST = re.compile(
     r"(?:,? (?:right|correct|yes or no|sorry|over or under|above or below)|"
     r"[, ]+(?:then|instead|please|pls|too|as well|now|also|at least|again|exactly|precisely|"

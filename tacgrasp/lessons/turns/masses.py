@@ -1,8 +1,10 @@
 """Follow-ups about another mass, or about the force that a mass needs.
 
-Will it slip at this weight?    And for 80 g?           the question for 80 g
-Will it slip at this weight?    And if it were twice as heavy?
-Is the grip strong enough?      What does it need?      How much force is needed for its mass?
+    Will it slip at this weight?    And for 80 g?           the question for 80 g
+    Will it slip at this weight?    And if it were twice as heavy?
+    Is the grip strong enough?      What does it need?      How much force is needed for its mass?
+
+Not here: the mass that a person tells (``tacgrasp.lessons.turns.told``).
 """
 
 from __future__ import annotations
@@ -23,15 +25,12 @@ from tacgrasp.lessons.turns.leads import END, LEAD, without_lead
 from tacgrasp.lessons.turns.units import ANOTHER_NUMBER, NUMBER, STATED, dimension_of
 
 _NEEDED = re.compile(
-    r"(?=.*\b(?:force|grip|squeeze|newtons?|hard|strong|strongly|n|(?:the )?(?:least|minimum)"
-    r"(?: that)? (?:i|we|you|it))\b)"
-    r"(?!.*\b(?:gravity|pull|pulls|weigh|weighs|push|apply|applying|pressing|is it|is that|are "
-    r"we|have|"
-    r"limit|heaviest|grams?|still|more|less|now)\b)"
-    r"(?=.*\b(?:needs?|needed|requires?|required|minimum|min|least|enough|takes?|surely|sure|"
-    r"safely|do|holds?)\b)"
-    r"(?:(?:and|so|but|then)[, ]+)*(?:(?:with )?how (?:much|many|strong|hard)|what|which|"
-    r"(?:the )?(?:minimum|least|needed|required|grip|force))\b.*",
+    r"(?=.*\b(?:force|grip|squeeze|newtons?|hard|strong|strongly|n|(?:the )?(?:least|minimum)(?: "
+    r"that)? (?:i|we|you|it))\b)(?!.*\b(?:gravity|pull|pulls|weigh|weighs|push|apply|applying|"
+    r"pressing|is it|is that|are we|have|limit|heaviest|grams?|still|more|less|"
+    r"now)\b)(?=.*\b(?:needs?|needed|requires?|required|minimum|min|least|enough|takes?|surely|"
+    r"sure|safely|do|holds?)\b)(?:(?:and|so|but|then)[, ]+)*(?:(?:with )?how (?:much|many|strong|"
+    r"hard)|what|which|(?:the )?(?:minimum|least|needed|required|grip|force))\b.*",
     re.I,
 )
 _ANOTHER_THING = re.compile(
@@ -50,13 +49,10 @@ _HEAVIER = re.compile(
     re.I,
 )
 _SEVERAL = re.compile(
-    r"(?:(?:would|will|does|do|can) (?:it|that|the grip|this|they|we) (?:still |also )?(?:hold|"
-    r"do|work|"
-    r"suffice|stay|carry|be enough)(?: for| if there were)? |if there were |what about |how "
-    r"about |and )?"
-    r"(?P<count>two|three|four|five|\d)(?: of (?:them|these|those|it))?(?: stuck together| "
-    r"together| "
-    r"at once| instead)?",
+    r"(?:(?:would|will|does|do|can) (?:it|that|the grip|this|they|we) (?:still |also )?(?:hold|do|"
+    r"work|suffice|stay|carry|be enough)(?: for| if there were)? |if there were |what about |how "
+    r"about |and )?(?P<count>two|three|four|five|\d)(?: of (?:them|these|those|it))?(?: stuck "
+    r"together| together| at once| instead)?",
     re.I,
 )
 _GRAMS = re.compile(r"\b(?P<each>gram_n|0\.0205) \* (?P<grams>\d+(?:\.\d+)?)")
@@ -84,11 +80,8 @@ def of_a_mass(question: str, before: str, meant: Meaning | None) -> str:
         return ""
     truth = truth_of(meant)
     is_of_mass = "mass_g" in truth and not STATED.search(before)
-    return (
-        f"{before.rstrip('?.! ')} for {asked['number']} {asked['unit'] or 'g'}?"
-        if is_of_mass
-        else ""
-    )
+    mass = f"{asked['number']} {asked['unit'] or 'g'}"
+    return f"{before.rstrip('?.! ')} for {mass}?" if is_of_mass else ""
 
 
 def of_another_mass(question: str, asked: Meaning | None) -> Calculated | None:
@@ -98,8 +91,7 @@ def of_another_mass(question: str, asked: Meaning | None) -> Calculated | None:
     if asked is None or (found is None and several is None):
         return None
     truth = truth_of(asked) if isinstance(asked, Amount | Check | Calculated) else ""
-    truth = _GRAMS.sub(r"\g<each> * (\g<grams> * 1)", truth) if "mass_g" not in truth else truth
-    if "mass_g" not in truth and " * 1)" not in truth:
+    if "mass_g" not in truth and _GRAMS.search(truth) is None:
         return None
     if found:
         times = (found["times"] or found["one"] or found["that"]).lower()
@@ -111,5 +103,10 @@ def of_another_mass(question: str, asked: Meaning | None) -> Calculated | None:
     if several and _HOLDING.search(words) and kind_of(asked) is not AnswerKind.YES_NO:
         return Calculated(truth=f"force_n >= gram_n * {factor:g} * mass_g", unit=None)
     unit = asked.unit if isinstance(asked, Amount | Calculated) else None
-    heavier = re.sub(r"\bmass_g\b", f"({factor:g} * mass_g)", truth)
-    return Calculated(truth=heavier.replace(" * 1)", f" * {factor:g})"), unit=unit)
+    if "mass_g" in truth:
+        truth = re.sub(r"\bmass_g\b", f"({factor:g} * mass_g)", truth)
+    else:
+        truth = _GRAMS.sub(
+            lambda mass: f"{mass['each']} * {factor * float(mass['grams']):g}", truth
+        )
+    return Calculated(truth=truth, unit=unit)

@@ -1,9 +1,11 @@
 """Follow-ups that name what they are about, or leave only that out, written anew.
 
-What shape is it?               And the texture?        What is the texture?
-Is the surface ridged?          What is it then?        What is the texture?
-My guess is a sphere.           Am I right?             Is it a sphere?
-Is it deep?                     What is the figure?     What is the depth as a number?
+    What shape is it?               And the texture?        What is the texture?
+    Is the surface ridged?          What is it then?        What is the texture?
+    My guess is a sphere.           Am I right?             Is it a sphere?
+    Is it deep?                     What is the figure?     What is the depth as a number?
+
+Not here: the number before (``tacgrasp.lessons.turns.references``).
 """
 
 from __future__ import annotations
@@ -58,10 +60,9 @@ _STATED_SO = re.compile(
 )
 _THAT_QUANTITY = re.compile(r"\b(?:that|this) (?P<what>force|depth|area|mass|limit|grip)\b", re.I)
 _FIGURE = re.compile(
-    r"(?:what(?:['’]s| is) (?:the |its )?(?:(?:real|actual|exact|true|precise) )?(?:figure|"
-    r"number|value|"
-    r"reading)|how (?:much|deep|strong|big) is it|(?:the )?exact (?:figure|number|value))"
-    r"(?: then| really| exactly| in fact)*[?.! ]*",
+    r"(?:what(?:['’]s| is) (?:the |its )?(?:(?:real|actual|exact|true|precise) )?(?:figure|number|"
+    r"value|reading)|how (?:much|deep|strong|big) is it|(?:the )?exact (?:figure|number|"
+    r"value))(?: then| really| exactly| in fact)*[?.! ]*",
     re.I,
 )
 _ENOUGH = re.compile(

@@ -1,9 +1,11 @@
 """Follow-ups about sides, axes and the size of the pad, written anew.
 
-Does it touch the left edge?    And the right?      Does it touch the right edge?
-Does it run off the pad?        On the left?        Is it cut on the left side?
-How far is it off sideways?     And vertically?     How far is it off vertically?
-How wide is the pad?            And its height?     the pad's height?
+    Does it touch the left edge?    And the right?      Does it touch the right edge?
+    Does it run off the pad?        On the left?        Is it cut on the left side?
+    How far is it off sideways?     And vertically?     How far is it off vertically?
+    How wide is the pad?            And its height?     the pad's height?
+
+Not here: which side is meant where none is left out (``tacgrasp.lessons.dialogue.rules``).
 """
 
 from __future__ import annotations
@@ -76,9 +78,8 @@ _PAD_SIDES = {"palm": "top", "upper": "top", "fingertip": "bottom", "lower": "bo
 _OF_PAD = re.compile(r"\b(?:its|the|(?P<bare>total|whole|full))(?P<size> (?:(?:whole|total|full|"
                      r"entire) )?(?:width|height|area|size)| area)\b", re.I)  # fmt: skip
 _WHOLE_AREA = re.compile(
-    r"what area (?:does|do) (?:that|they|these|it) make|the whole pad is(?= how)|what (?:is|"
-    r"does) (?:that|it)"
-    r"(?: make)? (?:as an area|in area)",
+    r"what area (?:does|do) (?:that|they|these|it) make|the whole pad is(?= how)|what (?:is|does) "
+    r"(?:that|it)(?: make)? (?:as an area|in area)",
     re.I,
 )
 _MOVED = re.compile(

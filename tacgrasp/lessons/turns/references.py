@@ -24,10 +24,9 @@ from tacgrasp.lessons.turns.leads import without_lead
 _POINTS = re.compile(r"\b(?:that|this|it|those|these|the result|the same)\b", re.I)
 
 _WOULD_BE = (
-    r"(?:what (?:would|will|is) be |(?:what|how much|how many \S+|which) (?:would|will|is|does|"
-    r"do|are|makes?) )?"
-    r"{}(?: (?:would|will|does|do|is|(?:what|how much) (?:would|will|is)))?(?: it| that)?"
-    r"(?: (?:be|make|come to|give|read|mean))?"
+    r"(?:what (?:would|will|is) be |(?:what|how much|how many \S+|which) (?:would|will|is|does|do|"
+    r"are|makes?) )?{}(?: (?:would|will|does|do|is|(?:what|how much) (?:would|will|is)))?(?: it| "
+    r"that)?(?: (?:be|make|come to|give|read|mean))?"
 )
 _AS_MUCH = (
     r"(?: (?:of )?(?:that|it|this|those|the same|as (?:much|many|hard|deep|strong|far|big|large|"
@@ -64,9 +63,9 @@ _SUM = re.compile(
 )
 
 
-PARTS = {"a quarter": "25", "a third": "33.3333", "half": "50", "a half": "50", "a tenth": "10",
+_SHARES = {"a quarter": "25", "a third": "33.3333", "half": "50", "a half": "50", "a tenth": "10",
          "a fifth": "20", "two thirds": "66.6667", "three quarters": "75"}  # fmt: skip
-_PARTS = re.compile(rf"(?<=than )(?:{'|'.join(PARTS)})\b(?! of)")
+_PARTS = re.compile(rf"(?<=than )(?:{'|'.join(_SHARES)})\b(?! of)")
 _THAT_IS = re.compile(
     r"^(?:that|this|it)(?:['’]s| is) (?P<what>.+?)(?:, is(?:n['’]?t)? (?:it|that)(?: not)?)?$"
 )
@@ -113,13 +112,13 @@ def of_number(question: str, about: Meaning | None, earlier: Meaning | None) -> 
     core = in_words(without_lead(question)).lower().strip(" ?.!")
     core = _THAT_IS.sub(r"is that \g<what>", core)
     if term.dimension == "fraction":
-        core = _PARTS.sub(lambda part: f"{PARTS[part[0]]} %", core)
+        core = _PARTS.sub(lambda part: f"{_SHARES[part[0]]} %", core)
     core = _HOW_FAR.sub(r"how far is the force \g<way> it", core)
     if distance := _DISTANCE.fullmatch(core):
         core = f"how far is it from {distance['what']}"
     if _COMPARES.match(core):
         core = f"is it {'' if not core.startswith('than') else 'more '}{core}"
-    if _HAVE_IT.fullmatch(core) and term.dimension == "force" and "force_n" not in term.expression:
+    if is_bound and _HAVE_IT.fullmatch(core):
         return Calculated(truth=f"force_n >= {term.factor}", unit=None)
     if of_both := _of_both(core, term, earlier):
         return replace(of_both, unit=unit)

@@ -1,8 +1,10 @@
 """Follow-ups under a supposition: another force than the one that is felt.
 
-Is it safe to lift?             And with 0.4 N less?    the band for force_n - 0.4
-What if I add 0.9 N?            Is that too much?       If I add 0.9 N, is the force too much?
-If I double it, are we over?    And if I halve it?      If I halve it, are we over?
+    Is it safe to lift?             And with 0.4 N less?    the band for force_n - 0.4
+    What if I add 0.9 N?            Is that too much?       If I add 0.9 N, is the force too much?
+    If I double it, are we over?    And if I halve it?      If I halve it, are we over?
+
+Not here: suppositions of a question alone (``tacgrasp.lessons.dialogue.calculations``).
 """
 
 from __future__ import annotations
@@ -41,10 +43,9 @@ _UNDER_IT = re.compile(r"\b(?:it|that|this|then|still|would)\b", re.I)
 _THEN = re.compile(r",? ?\bthen\b", re.I)
 _SUBJECT = re.compile(r"\b(?P<verb>is|are|would|will|does|do) (?:it|that|this)\b", re.I)
 _STILL_UNDER = re.compile(
-    r"(?:and )?(?P<if>(?:if|with|assume|suppose) [^,?]*?(?:\.\d+[^,?]*?)?)[,.:] "
-    r"(?:is (?:it|that) |are we |do we |would we )?(?:still )?(?:stay |be )?(?P<side>over|under|"
-    r"above|below)"
-    r"(?: (?:it|that))?(?: then| still)?[?.! ]*",
+    r"(?:and )?(?P<if>(?:if|with|assume|suppose) [^,?]*?(?:\.\d+[^,?]*?)?)[,.:] (?:is (?:it|that) "
+    r"|are we |do we |would we )?(?:still )?(?:stay |be )?(?P<side>over|under|above|below)(?: "
+    r"(?:it|that))?(?: then| still)?[?.! ]*",
     re.I,
 )
 _WITH_FORCE = re.compile(

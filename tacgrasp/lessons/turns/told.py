@@ -27,20 +27,17 @@ _IF = (
 )
 _THING = r"(?:it|this|that|(?:the|my|our|this) (?!limit\b|band\b|force\b)[a-z]+)"
 _TOLD = re.compile(
-    rf"{_IF}(?:"
-    rf"{_THING} ?(?:weighs|weighed|is|was|'s|has a mass of) (?:about |only |actually )?"
-    rf"{_N.format('mass')} ?{_UNIT.format('mass_unit')}(?:,? not [^,.?]+)?|"
-    rf"(?:(?:i|we) (?:do not|don['’]?t|must not|never) (?:want|allow|accept|need) (?:it |us )?"
-    rf"(?:to (?:get|see|have) )?(?:more than|over|above|anything over)|no more than|at most|"
-    rf"(?:(?:the|my|our|a) )?(?:(?:new|hard|force|upper|maximum|max) )*(?:limit|maximum|max|cap)"
-    rf"(?: (?:from|of|by|for) (?:the|my|our) \w+)? ?(?:is now|is|was|were|=|:|now)) "
-    rf"{_N.format('limit')} ?"
-    rf"{_UNIT.format('limit_unit')}(?: (?:on|for) (?:it|this|that|the \w+)| (?:is )?allowed)?|"
-    rf"(?:(?:the|my|our|a) )?(?:(?:new|force|wanted|target) )*(?:band|goal|range|target)"
-    rf" ?(?:is now|is|was|were|=|:|goes from|now) "
-    rf"(?:from )?{_N.format('low')}(?: ?{_UNIT.format('low_unit')})? ?(?:to|-|–|and) ?"
-    rf"{_N.format('high')} ?{_UNIT.format('high_unit')}"
-    rf")(?P<end>[.!]?$|[,.;:] (?P<asked>.+))",
+    rf"{_IF}(?:{_THING} ?(?:weighs|weighed|is|was|'s|has a mass of) (?:about |only |actually "
+    rf")?{_N.format('mass')} ?{_UNIT.format('mass_unit')}(?:,? not [^,.?]+)?|(?:(?:i|we) (?:do "
+    rf"not|don['’]?t|must not|never) (?:want|allow|accept|need) (?:it |us )?(?:to (?:get|see|"
+    rf"have) )?(?:more than|over|above|anything over)|no more than|at most|(?:(?:the|my|our|a) "
+    rf")?(?:(?:new|hard|force|upper|maximum|max) )*(?:limit|maximum|max|cap)(?: (?:from|of|by|"
+    rf"for) (?:the|my|our) \w+)? ?(?:is now|is|was|were|=|:|now)) {_N.format('limit')} "
+    rf"?{_UNIT.format('limit_unit')}(?: (?:on|for) (?:it|this|that|the \w+)| (?:is )?allowed)?|"
+    rf"(?:(?:the|my|our|a) )?(?:(?:new|force|wanted|target) )*(?:band|goal|range|target) ?(?:is "
+    rf"now|is|was|were|=|:|goes from|now) (?:from )?{_N.format('low')}(?: "
+    rf"?{_UNIT.format('low_unit')})? ?(?:to|-|–|and) ?{_N.format('high')} "
+    rf"?{_UNIT.format('high_unit')})(?P<end>[.!]?$|[,.;:] (?P<asked>.+))",
     re.I,
 )
 
@@ -161,12 +158,9 @@ _IS_FORCE = re.compile(
 )
 _BOUNDS = re.compile(
     r"\b(?:limit\w*|max\w*|caps?|never|no more|not more|(?:don['’]?t|do not|must not|mustn['’]?t|"
-    r"can['’]?t) (?:\w+ ){0,3}?(?:more|exceed|above|over|beyond)|at most|ceiling|cap|"
-    r"(?:cracks?|breaks?|bruises?|crush\w*|bursts?|splits?|gives way) (?:above|over|at|beyond|"
-    r"from|past)|"
-    r"not above|"
-    r"not over|"
-    r"not exceed\w*|stay (?:below|under)|keep (?:it )?(?:below|under))\b",
+    r"can['’]?t) (?:\w+ ){0,3}?(?:more|exceed|above|over|beyond)|at most|ceiling|cap|(?:cracks?|"
+    r"breaks?|bruises?|crush\w*|bursts?|splits?|gives way) (?:above|over|at|beyond|from|past)|not "
+    r"above|not over|not exceed\w*|stay (?:below|under)|keep (?:it )?(?:below|under))\b",
     re.I,
 )
 _CHANGES = re.compile(

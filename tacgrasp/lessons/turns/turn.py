@@ -61,8 +61,7 @@ ALONE_FROM = 0.5
 _FOLLOWS = re.compile(r"(?:and|but|then|why|how come|what about|how about|same)\b", re.I)
 _STANDS_ALONE = re.compile(
     r"(?:is|are|isn't|aren't|was|were|does|do|did|has|have|had|can|could|will|would|shall|should|"
-    r"may|might|must)"
-    r"(?: \S+){2}",
+    r"may|might|must)(?: \S+){2}",
     re.I,
 )
 """A question with subject and verb: 'Is it round?' follows nothing, 'Is it?' may."""
@@ -156,7 +155,7 @@ def next_turn(writer: QueryWriter, question: str, before: Turn) -> Turn:
         question: The question.
         before: The turn before it.
     """
-    if (telling := _telling(question, before)) is not None:
+    if (telling := _telling(question, before, writer)) is not None:
         return telling
     if not before.text:
         return before.then(question, understood(writer, question))
@@ -182,12 +181,20 @@ def next_turn(writer: QueryWriter, question: str, before: Turn) -> Turn:
     return _read_behind(writer, question, before)
 
 
-def _telling(text: str, before: Turn) -> Turn | None:
-    """A turn that tells something, with or without a question about it; None of others."""
+def _telling(text: str, before: Turn, writer: QueryWriter | None = None) -> Turn | None:
+    """A turn that tells something, with or without a question about it; None of others.
+
+    Args:
+        text: What is said.
+        before: The turn before it.
+        writer: The model, for a question that the grammar lacks; None asks no model.
+    """
     if (found := told_in(text, before.about)) is None or understood_by_grammar(text) is not None:
         return None
     told, asked = found
     read = understood_by_grammar(asked) if asked else None
+    if asked and read is None and writer is not None and not told.is_supposed:
+        read = understood_by_model(writer, asked)
     if read is None and told.is_supposed and not asked and before.about is not None:
         return replace(before.then(before.text, _read_so(before.about)), told=told)
     if read is None and (asked or told.is_supposed):

@@ -26,8 +26,7 @@ _UP, _DOWN, _LEFT, _RIGHT = (
 )
 _MOVE = (
     r"(?:mov(?:e|es|ed|ing|ement)|shifted|shift(?:s|ing)?|slid(?:e|es|ing)|translat(?:e|ion|ing)|"
-    r"re-?position"
-    r"(?:ing)?|re-?cent(?:er|re|ring|ering)|nudg(?:e|es|ing)|go(?:ing)?)"
+    r"re-?position(?:ing)?|re-?cent(?:er|re|ring|ering)|nudg(?:e|es|ing)|go(?:ing)?)"
 )
 _GRIP = r"(?:grip|squeeze|press|push|pinch|hold|clamp|grasp)(?:p?ing)?"
 _FIRMER = r"(?:harder|tighter|firmer|stronger|more(?: (?:force|firmly|strongly|tightly))?)"
@@ -37,8 +36,7 @@ _STEPS: tuple[tuple[re.Pattern[str], tuple[str, ...]], ...] = tuple(
     for pattern, actions in (
         (
             r"sideways,? (?:or )?up,? (?:or )?down|up,? down,? left,? or right|(?:any|whatever|"
-            r"some) "
-            r"direction|one of the (?:four|4) moves",
+            r"some) direction|one of the (?:four|4) moves",
             (_UP, _DOWN, _LEFT, _RIGHT),
         ),
         (
@@ -63,8 +61,7 @@ _STEPS: tuple[tuple[re.Pattern[str], tuple[str, ...]], ...] = tuple(
         ),
         (
             rf"{_GRIP} (?:\w+ ){{0,2}}{_SOFTER}|(?:decreas|reduc)(?:e|ing)|lower(?:ing)?(?: the "
-            rf"force)?|"
-            rf"loosen(?:ing)?|eas(?:e|ing) off|back(?:ing)? off|{_SOFTER}",
+            rf"force)?|loosen(?:ing)?|eas(?:e|ing) off|back(?:ing)? off|{_SOFTER}",
             (Primitive.DECREASE_FORCE.value,),
         ),
         (
@@ -87,11 +84,10 @@ _STEPS: tuple[tuple[re.Pattern[str], tuple[str, ...]], ...] = tuple(
 
 _ADVICE = re.compile(
     r"\b(?:advi[sc]e[ds]?|advising|recommend\w*|suggest\w*|proposed?|your (?:tip|counsel|verdict)|"
-    r"next (?:step|move|action|command)|would(?:n['’]?t)? you (?=move|shift|reset|start|let)|"
-    r"want (?:me|us|it|the \w+) (?:to )?|tell(?:ing)? me to|"
-    r"have me(?: do)?|(?:do i )?take it(?: that)? you want|(?:system|policy|robot|controller)(?: "
-    r"now)? "
-    r"(?:call|calls|ask|asks|want|wants)(?: for)?|policy output|call for)\b"
+    r"next (?:step|move|action|command)|would(?:n['’]?t)? you (?=move|shift|reset|start|let)|want "
+    r"(?:me|us|it|the \w+) (?:to )?|tell(?:ing)? me to|have me(?: do)?|(?:do i )?take it(?: "
+    r"that)? you want|(?:system|policy|robot|controller)(?: now)? (?:call|calls|ask|asks|want|"
+    r"wants)(?: for)?|policy output|call for)\b"
 )
 _ASKS_YES = re.compile(rf"{AUXILIARY}(?:n['’]?t)?\b")
 _DENIED = re.compile(
@@ -166,30 +162,26 @@ def _ways(words: str) -> Calculated | None:
 
 
 _LEADS = re.compile(
-    r"^(?:(?:and|so|then|ok)[, ]+)*(?:(?:as to |going by |for )?(?:your|the|my) )?(?:next "
-    r"(?:step|move|"
-    r"action|command)|advice|recommendation|what next)[:,–—-]+ ?|"
-    r"^(?:if it (?:was|were) your turn(?: now)?|going by your advice|next)[, ]+"
+    r"^(?:(?:and|so|then|ok)[, ]+)*(?:(?:as to |going by |for )?(?:your|the|my) )?(?:next (?:step|"
+    r"move|action|command)|advice|recommendation|what next)[:,–—-]+ ?|^(?:if it (?:was|were) your "
+    r"turn(?: now)?|going by your advice|next)[, ]+"
 )
 MOST_CHOICE = 16
 """Longest choice of steps that is read before anything else [words]. Our choice."""
 
 _ASKS_STEP = re.compile(
-    r"^(?:(?:are|is) (?:we|it) to|should (?:i|we|it|the \w+)|would you(?: have (?:me|us))?|do "
-    r"you want "
-    r"(?:me|us) to|(?:shall|must) (?:i|we)|which do you want from me next:?|do (?:i|we)) "
+    r"^(?:(?:are|is) (?:we|it) to|should (?:i|we|it|the \w+)|would you(?: have (?:me|us))?|do you "
+    r"want (?:me|us) to|(?:shall|must) (?:i|we)|which do you want from me next:?|do (?:i|we)) "
 )
 _ASKED_BEHIND = re.compile(
     r"[ ,:–—-]+(?:(?:what|which(?: one)?) (?:do|would|is|are) (?:you|your).*|pick (?:one|1)|"
-    r"which(?: one)?|"
-    r"what now|next|now)[?.! ]*$"
+    r"which(?: one)?|what now|next|now)[?.! ]*$"
 )
 _LEFT_ALONE = re.compile(
     r"(?:(?:leave|keep) (?:it|the \w+)(?: as it is| alone| be)?|neither(?: of (?:them|these))?|"
-    r"none|"
-    r"nothing|(?:do )?something (?:else|different|other)|a different (?:one|command|step)|another "
-    r"(?:one|step|command)|not(?: yet)?|nowhere|stay(?: put| where (?:i am|it is|we are))?|wait|"
-    r"other)"
+    r"none|nothing|(?:do )?something (?:else|different|other)|a different (?:one|command|step)|"
+    r"another (?:one|step|command)|not(?: yet)?|nowhere|stay(?: put| where (?:i am|it is|we "
+    r"are))?|wait|other)"
 )
 
 

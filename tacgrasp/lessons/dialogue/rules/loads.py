@@ -50,20 +50,19 @@ _ASKS_FORCE = re.compile(
 
 
 _ENOUGH_FOR = re.compile(
-    r"(?:(?:is|are|would|will|does|do|can) )?(?:(?:it|this|that|we|i|the|my|our|your) )?"
-    r"(?:(?:current |present )?(?:grip|force|squeeze|hold) )?(?:(?:also|still|be|surely|really) )*"
-    r"(?:(?:strong|firm|tight|hard) enough|enough(?: grip| force)?|sufficient|do|work|suffice|good)"
-    r"(?: (?:surely|really))? (?:to (?:hold|lift|carry) |for )(?:(?:an?|one of|one|this|the) )?# "
-    r"\w+"
-    r"(?: (?:one|#|object|part|piece|thing|egg|berry))?(?: (?:too|as well|surely|for sure))?"
+    r"(?:(?:is|are|would|will|does|do|can) )?(?:(?:it|this|that|we|i|the|my|our|your) "
+    r")?(?:(?:current |present )?(?:grip|force|squeeze|hold) )?(?:(?:also|still|be|surely|really) "
+    r")*(?:(?:strong|firm|tight|hard) enough|enough(?: grip| force)?|sufficient|do|work|suffice|"
+    r"good)(?: (?:surely|really))? (?:to (?:hold|lift|carry) |for )(?:(?:an?|one of|one|this|the) "
+    r")?# \w+(?: (?:one|#|object|part|piece|thing|egg|berry))?(?: (?:too|as well|surely|for "
+    r"sure))?"
 )
 _SURELY_NEEDED = re.compile(
-    r"(?=.*\b(?:surely|safely|for sure|certain|certainly)\b)"
-    r"(?=.*\b(?:hold|holds|held|keep|keeps|kept|stay|stays|carry)\b)"
-    r"(?:^|.*\b)(?:what|which|how much|how many newtons(?: of)?|newtons|least|minimum)"
-    r"(?: (?:force|grip|squeeze|gripping force))?(?: in \w+)?(?: (?:is|are|would|will|does|do|it|"
-    r"we|i))*"
-    r"(?: (?:enough|needed|required|sufficient|necessary|need|take|takes|it takes))"
+    r"(?=.*\b(?:surely|safely|for sure|certain|certainly)\b)(?=.*\b(?:hold|holds|held|keep|keeps|"
+    r"kept|stay|stays|carry)\b)(?:^|.*\b)(?:what|which|how much|how many newtons(?: of)?|newtons|"
+    r"least|minimum)(?: (?:force|grip|squeeze|gripping force))?(?: in \w+)?(?: (?:is|are|would|"
+    r"will|does|do|it|we|i))*(?: (?:enough|needed|required|sufficient|necessary|need|take|takes|"
+    r"it takes))"
 )
 _OF_BOUNDS = re.compile(
     r"\b(?:limit|band|heaviest|mass|grams?|load|more|less|still|missing|left)\b"
@@ -78,9 +77,8 @@ _ENOUGH_TO_HOLD = re.compile(
 )
 _WORKS = re.compile(
     r"(?:would|will|can|could|is|are) (?:an? )?# \w+(?: (?:object|part|piece|thing|one))?(?: "
-    r"(?:surely|"
-    r"still|be))* (?:work|ok|okay|fine|do|hold|held|safe|possible|stay|stays|all right)"
-    r"(?: (?:at|with|in|for) (?:the |this |that |our )?(?:present |current )?(?:grip|force|"
+    r"(?:surely|still|be))* (?:work|ok|okay|fine|do|hold|held|safe|possible|stay|stays|all "
+    r"right)(?: (?:at|with|in|for) (?:the |this |that |our )?(?:present |current )?(?:grip|force|"
     r"squeeze))?"
 )
 

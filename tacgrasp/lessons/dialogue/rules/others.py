@@ -38,15 +38,12 @@ _LENGTHWISE = re.compile(r"\b(?:vertical|vertically|lengthwise|along y|in y)\b")
 _EARLIER = re.compile(
     r"\bhow long (?:ago|(?:has|have|had|did|was|were)\b)|\bsince (?:(?:the )?(?:last|previous|"
     r"start|beginning|first)|then|when|yesterday|(?:we|it) (?:touched|started|began|gripped))\b|"
-    r"\b(?:second|moment|while|minute|frame|step)s? (?:ago|before|earlier)\b|"
-    r"\bthe (?:touch|reading|grip|contact|frame) before\b|\b(?:just |right )?before (?:touchdown|"
-    r"contact|"
-    r"the (?:touch|grip|lift))\b|\bduring (?:the )?(?:approach|closing|"
-    r"last|descent|insertion)\b|"
-    r"\b(?:last|previous|prior|former) "
-    r"(?:frame|step|time|touch|reading|second|minute|grasp|contact|indentation|press|grip|attempt|"
-    r"object|part|try)\b|"
-    r"\bthan (?:before|earlier|previously|a (?:moment|second|while) ago|just now)\b"
+    r"\b(?:second|moment|while|minute|frame|step)s? (?:ago|before|earlier)\b|\bthe (?:touch|"
+    r"reading|grip|contact|frame) before\b|\b(?:just |right )?before (?:touchdown|contact|the "
+    r"(?:touch|grip|lift))\b|\bduring (?:the )?(?:approach|closing|last|descent|insertion)\b|"
+    r"\b(?:last|previous|prior|former) (?:frame|step|time|touch|reading|second|minute|grasp|"
+    r"contact|indentation|press|grip|attempt|object|part|try)\b|\bthan (?:before|earlier|"
+    r"previously|a (?:moment|second|while) ago|just now)\b"
 )
 _CHANGED = re.compile(
     r"\b(?:increas|decreas|chang|grow|shrink|ris|drift)(?:e|ed|es|ing|en|n|s)?\b|"
@@ -85,11 +82,10 @@ _HOW_FELT = re.compile(
     r"(?: (?:to the touch|under (?:my|your|the) (?:thumb|finger)))?"
 )
 _IN_CORNER = re.compile(
-    r"(?:is|was|does|do) (?:it|this|that|the \w+|we|something|anything)(?: \w+){0,3}? "
-    r"(?:in|at|on|near|into|within)? ?(?:(?:one|any) of )?(?:(?:the|a|any|its|your) )?(?:# )?"
-    r"corners?(?: (?:zones?|regions?|cells?|areas?)(?: .*)?| of (?:the |your |its )?(?:pad|gel|"
-    r"sensor|"
-    r"grid|sensing area)(?: .*)?)"
+    r"(?:is|was|does|do) (?:it|this|that|the \w+|we|something|anything)(?: \w+){0,3}? (?:in|at|on|"
+    r"near|into|within)? ?(?:(?:one|any) of )?(?:(?:the|a|any|its|your) )?(?:# )?corners?(?: "
+    r"(?:zones?|regions?|cells?|areas?)(?: .*)?| of (?:the |your |its )?(?:pad|gel|sensor|grid|"
+    r"sensing area)(?: .*)?)"
 )
 _CORNERS = "('top-left', 'top-right', 'bottom-left', 'bottom-right')"
 _LEFT_BY = re.compile(r"(?:who|which \w+|whose \w+) left (?:it|this|that|the \w+)\b")

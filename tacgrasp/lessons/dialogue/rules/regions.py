@@ -33,19 +33,17 @@ _PART = rf"left|top|upper|bottom|lower|{_MIDDLE}|right"
 _STRIP = r"(?: one| third| strip| column| row| part)?"
 _THIRDS = re.compile(
     rf"\b(?P<a>{_PART})(?P<strip>{_STRIP}) (?:or )?(?:(?:in )?the )?(?P<b>{_PART}){_STRIP} or "
-    rf"(?:(?:in )?the )?"
-    rf"(?P<c>{_PART})\b(?P<last>{_STRIP})"
+    rf"(?:(?:in )?the )?(?P<c>{_PART})\b(?P<last>{_STRIP})"
 )
 _OF_PLACE = (
     r"(?:is|s|true|that|does|do|in|into|on|at|the|a|an|of|it|its|this|that|contact|contact's|"
-    r"touch|center|"
-    r"centre|middle|object|thing|patch|print|imprint|pad|pad's|gel|sensor|width|height|third|"
-    r"thirds|"
-    r"strip|strips|column|columns|row|rows|part|parts|side|by|which|what|contains?|holds?|has|have|"
-    r"lies?|sits?|falls?|fall|lands?|landed|lie|sit|be|horizontally|vertically|sideways|split|cut|"
-    r"divided?|dividing|into|three|3|equal|one|ones|or|and|looking|only|just|would|you|call|say|"
-    r"if|i|we|left|right|top|upper|bottom|lower|mid|central|hand|field|fields|region|zone|located|"
-    r"from|to|now|currently|lengthwise|horizontal|vertical|with|are|being|where|somewhere|please)"
+    r"touch|center|centre|middle|object|thing|patch|print|imprint|pad|pad's|gel|sensor|width|"
+    r"height|third|thirds|strip|strips|column|columns|row|rows|part|parts|side|by|which|what|"
+    r"contains?|holds?|has|have|lies?|sits?|falls?|fall|lands?|landed|lie|sit|be|horizontally|"
+    r"vertically|sideways|split|cut|divided?|dividing|into|three|3|equal|one|ones|or|and|looking|"
+    r"only|just|would|you|call|say|if|i|we|left|right|top|upper|bottom|lower|mid|central|hand|"
+    r"field|fields|region|zone|located|from|to|now|currently|lengthwise|horizontal|vertical|with|"
+    r"are|being|where|somewhere|please)"
 )
 _THIRD = re.compile(
     rf"(?:(?:in|within|into|on) )?(?:the )?(?P<word>left|top|upper|bottom|lower|{_MIDDLE}|right)"
@@ -72,8 +70,7 @@ _CORNERS = "['top-left', 'top-right', 'bottom-left', 'bottom-right']"
 
 _WHICH_FIELD = re.compile(
     r"(?=.*\b(?:nine|9|3 ?x ?3|three by three|grid)\b).*\b(?:which|what) (?:one|box|cell|field|"
-    r"square|"
-    r"ninth|part|region|of (?:them|these|those))\b"
+    r"square|ninth|part|region|of (?:them|these|those))\b"
 )
 
 _SIDES = r"(?:sides?|edges?|rims?|borders?|boundar(?:y|ies))"
