@@ -14,7 +14,7 @@ _FIRST = re.compile(
 """'No contact?' keeps its 'no', 'No, the depth' does not."""
 
 _LAST = re.compile(
-    r"(?:,? (?:right|correct|yes or no|sorry|over or under|above or below)|"
+    r"(?:, (?:right|correct|yes or no|sorry|over or under|above or below)|"
     r"[, ]+(?:then|instead|please|pls|too|as well|now|also|at least|again|exactly|precisely|"
     r"right now|at the moment|though|by the way|in total|altogether))+(?=[?.! ]*$)",
     re.I,
