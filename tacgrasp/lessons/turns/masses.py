@@ -68,7 +68,8 @@ def needed(question: str, before: str, meant: Meaning | None) -> str:
     is_fate = isinstance(meant, Check) and bool(meant.needed_n)
     if not (is_of_mass or is_fate) or _NEEDED.match(question) is None:
         return ""
-    masses = [f for f in STATED.finditer(before) if dimension_of(f["unit"]) == "mass"]
+    told = (*STATED.finditer(before), *STATED.finditer(question))
+    masses = [each for each in told if dimension_of(each["unit"]) == "mass"]
     named = f"{masses[-1]['number']} {masses[-1]['unit']}" if masses else "its mass"
     return f"How much force is needed for {named}?"
 

@@ -69,7 +69,7 @@ _TAKING = re.compile(
     r"(?: off| away)?(?:[, ]+instead)?",
     re.I,
 )
-_LETTING = re.compile(r"if (?:i|we|you) .+", re.I)
+_LETTING = re.compile(r"if (?:i|we|you) [^,]+", re.I)
 _MADE = {"twice": "2", "double": "2", "half": "0.5", "three times": "3"}
 
 

@@ -81,6 +81,11 @@ _HOW_FELT = re.compile(
     r"how (?:would|does|will|might) (?:it|this|the surface|its surface) feel"
     r"(?: (?:to the touch|under (?:my|your|the) (?:thumb|finger)))?"
 )
+_WHICH_PART = re.compile(
+    r"(?:(?:in|on|at) )?(?:what|which) (?:part|area|region|section|zone|spot) of (?:the |your )?"
+    r"(?:pad|gel|sensor)(?: (?:is|does|has|was) (?:it|that|this|the \w+))?"
+    r"(?: (?:in|on|at|touching|sitting|pressing))?(?: in (?:words|a word|one word))?"
+)
 _IN_CORNER = re.compile(
     r"(?:is|was|does|do) (?:it|this|that|the \w+|we|something|anything)(?: \w+){0,3}? (?:in|at|on|"
     r"near|into|within)? ?(?:(?:one|any) of )?(?:(?:the|a|any|its|your) )?(?:# )?corners?(?: "
@@ -117,7 +122,7 @@ def other_query(words: str) -> str:
         return "unknown owner."
     if _IN_CORNER.fullmatch(words) and " or " not in words:
         return f"calculate position in {_CORNERS}."
-    if _GRID.match(words):
+    if _GRID.match(words) or _WHICH_PART.fullmatch(words):
         return "word position."
     if _HOW_FELT.fullmatch(words):
         return "word texture."
