@@ -68,11 +68,6 @@ _MIDDLE_FIELD = re.compile(
 )
 _CORNERS = "['top-left', 'top-right', 'bottom-left', 'bottom-right']"
 
-_WHICH_FIELD = re.compile(
-    r"(?=.*\b(?:nine|9|3 ?x ?3|three by three|grid)\b).*\b(?:which|what) (?:one|box|cell|field|"
-    r"square|ninth|part|region|of (?:them|these|those))\b"
-)
-
 _SIDES = r"(?:sides?|edges?|rims?|borders?|boundar(?:y|ies))"
 _RUNS = (
     r"\b(?:run|runs|ran|running|cross|crosses|crossing|cut|cuts|clip|clips|clipped|leave|leaves|"
