@@ -28,7 +28,8 @@ _NEEDED = re.compile(
     r"(?=.*\b(?:force|grip|squeeze|newtons?|hard|strong|strongly|n|(?:the )?(?:least|minimum)(?: "
     r"that)? (?:i|we|you|it))\b)(?!.*\b(?:gravity|pull|pulls|weigh|weighs|push|apply|applying|"
     r"pressing|is it|is that|are we|have|limit|heaviest|grams?|still|more|less|"
-    r"now)\b)(?=.*\b(?:needs?|needed|requires?|required|minimum|min|least|enough|takes?|surely|"
+    r"now)\b)(?=.*\b(?:needs?|needed|wants?|requires?|required|minimum|min|least|enough|takes?|"
+    r"surely|"
     r"sure|safely|do|holds?)\b)(?:(?:and|so|but|then)[, ]+)*(?:(?:with )?how (?:much|many|strong|"
     r"hard)|what|which|(?:the )?(?:minimum|least|needed|required|grip|force))\b.*",
     re.I,

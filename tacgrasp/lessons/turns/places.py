@@ -116,7 +116,7 @@ def about_the_pad(question: str, meant: Meaning | None) -> str:
     names = names_of(meant) if isinstance(meant, Calculated) else ()
     if not names or not set(names) <= {"pad_width_mm", "pad_height_mm"}:
         return ""
-    words = without_lead(question)
+    words = re.sub(r"\b(area|width|height) of (?:it|that)\b", r"\1", without_lead(question))
     if _WHOLE_AREA.match(words):
         return _WHOLE_AREA.sub("the pad's total area", words)
     if re.fullmatch(r"(?:height|width|area)[?.! ]*", words, re.I):

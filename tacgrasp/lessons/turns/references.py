@@ -20,6 +20,7 @@ from tacgrasp.lessons.dialogue.meaning import Amount, Calculated, Check, Meaning
 from tacgrasp.lessons.dialogue.plainer import in_words
 from tacgrasp.lessons.dialogue.quantities import GRAVITY_N_PER_G, QUANTITIES, UNITS
 from tacgrasp.lessons.turns.leads import without_lead
+from tacgrasp.lessons.turns.units import unit_symbol
 
 _POINTS = re.compile(r"\b(?:that|this|it|those|these|the result|the same)\b", re.I)
 
@@ -72,6 +73,11 @@ _THAT_IS = re.compile(
 _OFF = re.compile(
     r"how (?:far|much) (?:off|short|away)(?: (?:am i|are we|is it|is that))?(?:,? in N)?", re.I
 )
+_HARDER = re.compile(
+    r"^(?:are we|am i|is it|do we|do i) (?:press|grip|squeez|hold|push)(?:ing|p?ing|e)? "
+    r"(?:with )?(?:it )?(?P<way>more|less|harder|softer)(?: force)? than"
+)
+_IN_UNIT = re.compile(r",? in (?P<unit>[a-zµ]+2?)$")
 _HOW_FAR = re.compile(r"^how (?:far|much) (?P<way>from|off|above|below) (?:it|that)$")
 _DISTANCE = re.compile(
     r"(?:(?:what is|the|absolute|its) )*(?:distance|difference|gap|margin) (?:to|from) (?P<what>.+)"
@@ -120,6 +126,10 @@ def of_number(question: str, about: Meaning | None, earlier: Meaning | None) -> 
         core = f"is it {'' if not core.startswith('than') else 'more '}{core}"
     if is_bound and _HAVE_IT.fullmatch(core):
         return Calculated(truth=f"force_n >= {term.factor}", unit=None)
+    core = _HARDER.sub(r"is the force \g<way> than", core)
+    if in_unit := _IN_UNIT.search(core):
+        unit = unit_symbol(in_unit["unit"]) or unit
+        core = core[: in_unit.start()] if _MULTIPLE.fullmatch(core[: in_unit.start()]) else core
     if of_both := _of_both(core, term, earlier):
         return replace(of_both, unit=unit)
     if found := _MULTIPLE.fullmatch(core):

@@ -64,7 +64,8 @@ _MOST_WORDS = 4
 _OBJECT = re.compile(
     r"\b(?P<before>over|for|above|below|under|in|within|inside|outside|to|of|near|past|beyond|than|"
     r"exceed(?:ing|ed)?|reach(?:ing|ed)?|break(?:ing)?|pass(?:ed|ing)?|at|from) "
-    r"(?P<pronoun>it\b(?! \w+s\b)|(?:that|this)\b(?! \w))",
+    r"(?P<pronoun>it\b(?! \w+s\b)|(?:that|this)\b(?! (?!(?:is|are|am|do|does|would|will|can|we|i|"
+    r"it|now|right|still|at|in|on)\b)\w))",
     re.I,
 )
 _CALLED = {
@@ -151,7 +152,7 @@ def noun_of(meant: Meaning) -> str:
         names = {part.quantity for part in meant.parts if isinstance(part, Amount)}
         return "the band" if names == {"band_low", "band_high"} else ""
     if isinstance(meant, Amount) and meant.quantity in _CALLED:
-        return _CALLED[meant.quantity]
+        return f"{_CALLED[meant.quantity]} for {meant.of}" if meant.of else _CALLED[meant.quantity]
     if not isinstance(meant, Amount | Check | Calculated):
         return ""
     names = {name for name in names_of(meant) if name in _COMPARED_WITH}

@@ -48,6 +48,19 @@ _STILL_UNDER = re.compile(
     r"(?:it|that))?(?: then| still)?[?.! ]*",
     re.I,
 )
+_STILL_IN = re.compile(
+    r"(?:and )?(?P<if>(?:if|with) [^,?]*?(?:\.\d+[^,?]*?)?), (?:is (?:it|that) |are we |am i |"
+    r"would "
+    r"(?:we|i|it) be )?(?:still )?(?:in|inside|within)(?: (?:it|that))?(?: then| still)?[?.! ]*",
+    re.I,
+)
+_ARE_WE_OVER = re.compile(
+    r"(?:(?:and|so|but)[, ]+)*(?:now[, ]+)?(?:are we|am i|is it)(?: still| now)* (?:over|under|"
+    r"above|"
+    r"below|past|beyond)[?.! ]*",
+    re.I,
+)
+"""'Are we over?', of the limit that was told."""
 _WITH_FORCE = re.compile(
     r"(?:(?:what|how) about )?(?:if (?:i|we|you) )?(?:with |at |assume |suppose |assuming "
     r")?(?:(?:add|adding|squeeze|press|"
@@ -75,6 +88,10 @@ _MADE = {"twice": "2", "double": "2", "half": "0.5", "three times": "3"}
 
 def still_under(question: str, noun: str) -> str:
     """'If I add 0.3 N, still under?' with what it may be under."""
+    if (inside := _STILL_IN.fullmatch(question)) is not None:
+        return f"{inside['if']}, is the force in the band?"
+    if noun and _ARE_WE_OVER.fullmatch(question):
+        return f"{without_lead(question).rstrip('?.! ')} {noun}?"
     found = _STILL_UNDER.fullmatch(question)
     if found is None:
         return ""

@@ -79,7 +79,7 @@ class Told:
 
 
 _CORRECTED = re.compile(
-    rf"(?:(?:no|oh|sorry|actually|wait|ok|now|i mean|i meant)[,:]? )*(?:"
+    rf"(?:(?:no|nah|nope|oh|sorry|actually|wait|ok|now|i mean|i meant)[,:]? )*(?:"
     rf"(?:make|set|let us make|change) (?:it|that|this)(?: to)?|(?:i mean|i meant)) "
     rf"(?P<value>{_N.format('first')}.*?)"
     r"(?:,? (?:instead|then|please|now))*[.!]?",
@@ -106,6 +106,9 @@ def told_in(text: str, about: Meaning | None = None) -> tuple[Told, str] | None:
     found = _TOLD.fullmatch(text)
     if found is None and (circumstance := _BEFORE_IT.match(text)):
         found = _TOLD.fullmatch(text[circumstance.end() :])
+    if found is None and (mass := _CORRECTED_MASS.fullmatch(text)):
+        size = UNITS[unit_symbol(mass["unit"])].size
+        return Told(mass_g=_float(mass["number"]) * size), ""
     if found is None:
         return _told_freely(text)
     mass_g = _number(found, "mass", "mass")
@@ -120,6 +123,13 @@ def told_in(text: str, about: Meaning | None = None) -> tuple[Told, str] | None:
     told = Told(mass_g=mass_g, band_n=band_n, limit_n=limit_n, is_supposed=bool(found["if"]))
     return told, found["asked"] or ""
 
+
+_CORRECTED_MASS = re.compile(
+    r"(?:sorry|no|wait|correction|oops|i meant?)[,:]? (?:(?:it['’]?s|it is|i meant?) )?"
+    r"(?P<number>\d+(?:[.,]\d+)?) ?(?P<unit>g|grams?|kg|kilos?|kilograms?)[.!]*",
+    re.I,
+)
+"""'Sorry, 82 g.'"""
 
 _SENTENCE = re.compile(r"(?<=[.!?])(?<!\d\.)\s+(?=\S)")
 _ASKS = re.compile(
@@ -157,7 +167,8 @@ _IS_FORCE = re.compile(
     rf"(?<![\w.,])(?P<number>\d+(?:[.,]\d+)?) ?{_FORCE_UNIT.format('unit')}", re.I
 )
 _BOUNDS = re.compile(
-    r"\b(?:limit\w*|max\w*|caps?|never|no more|not more|(?:don['’]?t|do not|must not|mustn['’]?t|"
+    r"\b(?:limit\w*|max\w*|caps?|never|no more|not more|(?:don['’]?t|do not|must not|may not|"
+    r"mustn['’]?t|"
     r"can['’]?t) (?:\w+ ){0,3}?(?:more|exceed|above|over|beyond)|at most|ceiling|cap|(?:cracks?|"
     r"breaks?|bruises?|crush\w*|bursts?|splits?|gives way) (?:above|over|at|beyond|from|past)|not "
     r"above|not over|not exceed\w*|stay (?:below|under)|keep (?:it )?(?:below|under))\b",

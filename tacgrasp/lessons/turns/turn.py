@@ -139,6 +139,15 @@ class Turn:
         return replace(turn, number=read.meaning, numbered=text, earlier=self.number)
 
 
+_STILL_SO = re.compile(
+    r"(?:(?:and|so|ok|but)[, ]+)*(?:now[, ]+)?(?:is (?:it|that) |are we |does (?:it|that) )?still "
+    r"(?:enough|ok|okay|fine|true|so|the case|hold|holds|held|good|a sure hold)(?: now| "
+    r"then)*[?.! ]*|"
+    r"(?:(?:and|so|ok|but)[, ]+)*(?:now|ok now|and now)[?.! ]*",
+    re.I,
+)
+"""'Still enough?', once a mass or a band was told anew."""
+
 _OF_NUMBERS = (AnswerKind.NUMBER, AnswerKind.YES_NO, AnswerKind.CHOICE)
 """Kinds of questions behind which 'that' may be the last number."""
 
@@ -161,6 +170,8 @@ def next_turn(writer: QueryWriter, question: str, before: Turn) -> Turn:
         return before.then(question, understood(writer, question))
     if heavier := of_another_mass(question, before.about):
         return before.then(before.text, _read_so(heavier))
+    if before.condition is not None and _STILL_SO.fullmatch(question.strip()):
+        return replace(before, read=_read_so(before.condition), about=before.condition, told=None)
     if both := of_both(question, before.condition, before.earlier_condition):
         return replace(before, read=_read_so(both), about=both, told=None)
     if (force := changed_force(question)) and (supposed := of_changed_force(force, before.of_felt)):

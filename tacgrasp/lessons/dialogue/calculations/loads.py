@@ -164,7 +164,7 @@ def needed(asked: AskedWords) -> Term | None:
         return None
     if not asked.unit and not re.search(rf"\b{_FORCE}\b", words):
         return None
-    if _ASKS_SO.match(words) or re.search(r"\benough\b", words):
+    if _ASKS_SO.match(words) or _APART.search(words):
         return None
     if not asked.unit and not re.search(rf"\b(?:what|which|how|{_LEAST})\b", words):
         return None
@@ -282,6 +282,9 @@ _NEEDS_MORE = re.compile(
     r"(?P<load>(?:would|will|does|do) .+?) (?:need|require|take|demand|call for|ask for) "
     r"(?P<sign>more|less) (?:force |grip |newtons )?than (?P<bound>.+?)(?: allows| permits)?"
 )
+_APART = re.compile(r"\b(?:enough|away|apart|distance|difference|gap)\b|\bhow far (?!short)")
+"""What asks for less, or for more, than the force that is needed."""
+
 _ASKS_SO = re.compile(r"(?:is|are|am|would|will|could|can|does|do|has|have|should)\b")
 
 

@@ -16,6 +16,8 @@ from tests.fakes.question_scenes import HELD
 MOVED = "calculate action in ['move_up', 'move_down', 'move_left', 'move_right']."
 
 
+IN_AFTER = "calculate band_low_n <= (force_n + 0.5) <= band_high_n."
+HOLDS = "check stays given."
 HOLDS_IT = "calculate force_n >= 0.0205 * mass_g."
 TWICE = "calculate (2 * force_n) / gram_n in g."
 
@@ -190,6 +192,13 @@ def test_several_follow_ups_in_a_row_lose_nothing(questions, query):
             "calculate (force_n + 1) < limit_n.",
         ),
         (("How many grams does it hold?", "and with twice the force?"), TWICE),
+        (("The band is 1 to 2 N.", "If I press 0.5 N harder, are we in then?"), IN_AFTER),
+        (("The limit is 3 N.", "And now, are we over?"), "check force over."),
+        (("Object mass is 32 g.", "Will it hold?", "Sorry, 82 g.", "Still enough?"), HOLDS),
+        (
+            ("How much force is needed for 150 g?", "How many newtons are we away from that?"),
+            "calculate abs(force_n - (gram_n * 150)) in N.",
+        ),
         # two conditions
         (
             ("Is it deeper than 0.4 mm?", "Is the area over 10 %?", "So are both true?"),
