@@ -41,10 +41,10 @@ def held_frames(
         first_n = min(force_n, rig.first_force_n)
         rig.gripper.grip(first_n)
         if not sense.read_contact():
-            more = "more --force-n" if first_n == force_n else "the rig more first force"
+            more = "--force-n" if first_n == force_n else "gripper.first_force_n"
             raise TouchError(
                 f"nothing is felt at {first_n:g} N: put a firm object between the fingers, or give "
-                f"{more}"
+                f"more {more}"
             )
         if first_n < force_n:  # no more than the rig's first force until something is felt
             rig.gripper.grip(force_n)

@@ -26,8 +26,8 @@ class QuestionFlags:
     """Ask the language model a file of questions about contacts and compare with the truth.
 
     Attributes:
-        file: CSV file with the columns family, question, kind, truth and tolerance
-            (docs/questions.md); by default the questions that were kept out of the grammar.
+        file: CSV file with the columns family, question, kind, truth and tolerance, and before of
+            a dialogue (docs/questions.md); by default the questions that were kept out of the grammar.
         data: Folder of contacts, whose test split is used; a few are made when not given.
         contacts: Number of contacts.
         per_question: Number of contacts that each question is asked about.
@@ -90,7 +90,7 @@ def _show(results: dict[str, Any], answers: Sequence[ScoredAnswer], *, wrong: bo
     from rich.table import Table
 
     from tacgrasp.console import make_table_console
-    from tacgrasp.training.question_evaluation import AS_FELT
+    from tacgrasp.training.question_evaluation import APART, AS_FELT
 
     console = make_table_console()
     if wrong:
@@ -98,7 +98,8 @@ def _show(results: dict[str, Any], answers: Sequence[ScoredAnswer], *, wrong: bo
             if not each.score.right:
                 truths = "; ".join(truth.text for truth in each.asked.row.truths)
                 wanted = truths or each.asked.row.kind
-                console.print(f"{each.asked.row.question!r} ({wanted}): {each.text!r}")
+                lines = " | ".join((*each.asked.row.before, each.asked.row.question))
+                console.print(f"{lines!r} ({wanted}): {each.text!r}")
     table = Table("%", *COLUMNS.values(), "questions")
     groups = {
         "by family": results["families"],
@@ -122,7 +123,9 @@ def _show(results: dict[str, Any], answers: Sequence[ScoredAnswer], *, wrong: bo
         "true touch (the model's understanding of the true contact), truth as felt (every question "
         "understood, and the touch of the model), "
     )
+    apart = "each question apart: none of those before it is heard; "
     console.print(
+        f"{apart if APART in results['figures'] else ''}"
         "trivial: no, yes, unknowable, most frequent; upper bounds: "
         f"{felt if AS_FELT in results['figures'] else ''}truth in words, and grammar on questions "
         "of its own"
@@ -138,6 +141,7 @@ def _plain(each: ScoredAnswer) -> dict[str, object]:
     return {
         "family": row.family,
         "question": row.question,
+        "before": list(row.before),
         "kind": row.kind.value,
         "truth": "; ".join(truth.text for truth in row.truths),
         "contact": each.asked.contact,
