@@ -27,7 +27,8 @@ class QuestionFlags:
 
     Attributes:
         file: CSV file with the columns family, question, kind, truth and tolerance, and before of
-            a dialogue (docs/questions.md); by default the questions that were kept out of the grammar.
+            a dialogue (docs/questions.md); by default the questions that were kept out of the
+            grammar.
         data: Folder of contacts, whose test split is used; a few are made when not given.
         contacts: Number of contacts.
         per_question: Number of contacts that each question is asked about.
