@@ -22,7 +22,13 @@ from tacgrasp.lessons.dialogue.meaning import (
     truth_of,
 )
 from tacgrasp.lessons.turns.leads import END, LEAD, without_lead
-from tacgrasp.lessons.turns.units import ANOTHER_NUMBER, NUMBER, STATED, dimension_of
+from tacgrasp.lessons.turns.units import (
+    ANOTHER_NUMBER,
+    NUMBER,
+    STATED,
+    TIMES,
+    dimension_of,
+)
 
 _NEEDED = re.compile(
     r"(?=.*\b(?:force|grip|squeeze|newtons?|hard|strong|strongly|n|(?:the )?(?:least|minimum)(?: "
@@ -59,7 +65,6 @@ _SEVERAL = re.compile(
 _GRAMS = re.compile(r"\b(?P<each>gram_n|0\.0205) \* (?P<grams>\d+(?:\.\d+)?)")
 _HOLDING = re.compile(r"\b(?:hold|do|work|suffice|stay|carry|enough)\b", re.I)
 _COUNTS = {"two": 2, "three": 3, "four": 4, "five": 5}
-_SO_HEAVY = {"twice": 2.0, "double": 2.0, "half": 0.5, "three times": 3.0, "ten times": 10.0}
 
 
 def needed(question: str, before: str, meant: Meaning | None) -> str:
@@ -97,7 +102,7 @@ def of_another_mass(question: str, asked: Meaning | None) -> Calculated | None:
         return None
     if found:
         times = (found["times"] or found["one"] or found["that"]).lower()
-        factor = _SO_HEAVY.get(times) or float(times.split()[0])
+        factor = TIMES.get(times) or float(times.split()[0])
     else:
         assert several is not None
         count = several["count"].lower()

@@ -89,7 +89,7 @@ _MOVED = re.compile(
 )
 
 
-def about_place(question: str, before: str, meant: Meaning | None) -> Iterator[str]:
+def about_place(question: str, meant: Meaning | None) -> Iterator[str]:
     """A short question about edges, ways and bounds, by what was asked before."""
     side = _ANOTHER_SIDE.fullmatch(question)
     condition = truth_of(meant) if isinstance(meant, Check | Calculated | Which) else ""

@@ -20,7 +20,7 @@ from tacgrasp.lessons.dialogue.meaning import Amount, Calculated, Check, Meaning
 from tacgrasp.lessons.dialogue.plainer import in_words
 from tacgrasp.lessons.dialogue.quantities import GRAVITY_N_PER_G, QUANTITIES, UNITS
 from tacgrasp.lessons.turns.leads import without_lead
-from tacgrasp.lessons.turns.units import unit_symbol
+from tacgrasp.lessons.turns.units import TIMES, unit_symbol
 
 _POINTS = re.compile(r"\b(?:that|this|it|those|these|the result|the same)\b", re.I)
 
@@ -34,12 +34,9 @@ _AS_MUCH = (
     r"heavy|firm|tight|strongly|firmly)(?: as that)?|the (?:force|depth|grip|amount|value|"
     r"number|mass|area)))?"
 )
-_TIMES = {"half": 0.5, "twice": 2, "double": 2, "triple": 3, "thrice": 3, "three times": 3,
-          "four times": 4, "quadruple": 4, "a third": 1 / 3, "a quarter": 0.25, "a tenth": 0.1,
-          "halved": 0.5, "doubled": 2, "tripled": 3, "ten times": 10, "five times": 5}  # fmt: skip
 _MULTIPLE = re.compile(
     _WOULD_BE.format(
-        rf"(?:(?P<times>{'|'.join(_TIMES)})|(?P<percent>\d+(?:\.\d+)?) ?(?:%|percent)(?= of)|"
+        rf"(?:(?P<times>{'|'.join(TIMES)})|(?P<percent>\d+(?:\.\d+)?) ?(?:%|percent)(?= of)|"
         rf"(?P<number>\d+(?:\.\d+)?) times){_AS_MUCH}"
     )
 )
@@ -133,7 +130,7 @@ def of_number(question: str, about: Meaning | None, earlier: Meaning | None) -> 
     if of_both := _of_both(core, term, earlier):
         return replace(of_both, unit=unit)
     if found := _MULTIPLE.fullmatch(core):
-        factor = _TIMES.get(found["times"] or "") or float(
+        factor = TIMES.get(found["times"] or "") or float(
             found["number"] or float(found["percent"] or 100) / 100
         )
         base = term if _POINTS.search(core) else _felt(term, earlier)

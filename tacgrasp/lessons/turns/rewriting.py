@@ -103,7 +103,7 @@ def rewritten(question: str, before: str, meant: Meaning | None, noun: str) -> I
         in_a_word(question, meant),
         in_that_place(question, meant),
         about_the_pad(question, meant),
-        *about_place(question, before, meant),
+        *about_place(question, meant),
         with_another_side(question, before),
         *about_the_band(question, meant),
         needed(question, before, meant),

@@ -24,7 +24,7 @@ from tacgrasp.lessons.dialogue.meaning import (
 from tacgrasp.lessons.dialogue.plainer import in_words
 from tacgrasp.lessons.dialogue.quantities import UNITS
 from tacgrasp.lessons.turns.leads import LEAD, capital, uncapital, without_lead
-from tacgrasp.lessons.turns.units import unit_symbol
+from tacgrasp.lessons.turns.units import TIMES, in_own_unit
 from tacgrasp.lessons.understanding import understood_by_grammar
 
 _SUPPOSED = (
@@ -83,7 +83,6 @@ _TAKING = re.compile(
     re.I,
 )
 _LETTING = re.compile(r"if (?:i|we|you) [^,]+", re.I)
-_MADE = {"twice": "2", "double": "2", "half": "0.5", "three times": "3"}
 
 
 def still_under(question: str, noun: str) -> str:
@@ -142,13 +141,13 @@ def changed_force(question: str) -> str:
     """The force that a follow-up supposes, as an expression: 'and with 0.4 N less'; '' of none."""
     words = in_words(without_lead(question)).strip(" ?.!")
     if found := _WITH_FORCE.fullmatch(words):
-        newtons = float(found["number"]) * UNITS[unit_symbol(found["unit"] or "N")].size
+        newtons = in_own_unit(found["number"], found["unit"] or "N")
         return f"(force_n {'-' if found['way'].lower() in _FEWER else '+'} {newtons:.6g})"
     if found := _TAKING.fullmatch(words):
-        newtons = float(found["number"]) * UNITS[unit_symbol(found["unit"])].size
+        newtons = in_own_unit(found["number"], found["unit"])
         return f"(force_n - {newtons:.6g})"
     if found := _TIMES_FORCE.fullmatch(words):
-        return f"({_MADE[found['times'].lower()]} * force_n)"
+        return f"({TIMES[found['times'].lower()]:g} * force_n)"
     if _LETTING.fullmatch(words) and (read := understood_by_grammar(f"What {words}?")):
         is_force = isinstance(read.meaning, Calculated) and read.meaning.unit == "N"
         names = Expression(truth_of(read.meaning)).names if is_force else ()

@@ -30,6 +30,11 @@ _UNIT_WORDS = {
     "kgf": r"kgf",
     "cm²": r"cm²|cm2|square centimet(?:re|er)s?",
 }
+TIMES = {"half": 0.5, "twice": 2, "double": 2, "triple": 3, "thrice": 3, "three times": 3,
+         "four times": 4, "quadruple": 4, "a third": 1 / 3, "a quarter": 0.25, "a tenth": 0.1,
+         "halved": 0.5, "doubled": 2, "tripled": 3, "ten times": 10, "five times": 5}  # fmt: skip
+"""What a follow-up multiplies by, by its words."""
+
 NUMBER = rf"(?P<number>\d+(?:[.,]\d+)?)(?:\s*(?P<unit>{'|'.join(_UNIT_WORDS.values())})(?!\w))?"
 STATED = re.compile(rf"(?<![\w.,]){NUMBER}(?!\w|\.\d)", re.I)
 ANOTHER_NUMBER = re.compile(
@@ -57,3 +62,8 @@ def unit_symbol(written: str) -> str:
             if re.fullmatch(words, written, flags):
                 return symbol
     return ""
+
+
+def in_own_unit(number: str, unit: str) -> float:
+    """A number as it is written, in its dimension's own unit: '1,5' 'kg' are 1500 g."""
+    return float(number.replace(",", ".")) * UNITS[unit_symbol(unit)].size

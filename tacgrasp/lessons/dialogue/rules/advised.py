@@ -11,7 +11,7 @@ Not here: what is advised, and why (``tacgrasp.lessons.dialogue.families``).
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable
 
 from primitives import Primitive
 from tacgrasp.lessons.dialogue.meaning import Calculated
@@ -137,9 +137,8 @@ def advised(question: str) -> Calculated | None:
     first, second = (_one_of(found[name]) for name in ("first", "second"))
     if not first or not second:
         return None
-    told: Mapping[str, str] = {found["first"].strip(): first, found["second"].strip(): second}
-    branches = " else ".join(f"'{word}' if {condition}" for word, condition in told.items())
-    return Calculated(truth=f"{branches} else '{found['else']}'", unit=None)
+    told = (found["first"].strip(), first), (found["second"].strip(), second)
+    return _first_of(told, found["else"])
 
 
 _WAYS = re.compile(
@@ -157,8 +156,7 @@ def _ways(words: str) -> Calculated | None:
     if found is None or len(set(named)) < len(_BY_WORD):
         return None
     none = found["none"] or "none"
-    branches = " else ".join(f"'{way}' if action == '{_BY_WORD[way]}'" for way in named)
-    return Calculated(truth=f"{branches} else '{none}'", unit=None)
+    return _first_of(((way, f"action == '{_BY_WORD[way]}'") for way in named), none)
 
 
 _LEADS = re.compile(
@@ -207,8 +205,11 @@ def _choice_of_steps(words: str) -> Calculated | None:
             told.append((part, condition))
         else:
             return None
-    if len(told) < 2 - bool(none) or not told or not none:
-        return None
+    return _first_of(told, none) if told and none else None
+
+
+def _first_of(told: Iterable[tuple[str, str]], none: str) -> Calculated:
+    """The word of the first condition that holds, or the word for none of them."""
     branches = " else ".join(f"'{word}' if {condition}" for word, condition in told)
     return Calculated(truth=f"{branches} else '{none}'", unit=None)
 

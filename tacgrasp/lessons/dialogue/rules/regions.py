@@ -79,6 +79,8 @@ _HOW_MANY = re.compile(
     rf"\bhow many (?:of (?:the |its |our )?)?(?:(?:four|4|pad|pad's|gel|sensor) )*{_SIDES}\b"
 )
 _FOUR = ("left", "right", "top", "bottom")
+_NUM_CUT = " + ".join(f"cut_{side}" for side in _FOUR)
+_COUNTS = {"one": 1, "a single": 1, "two": 2, "three": 3}
 _NUMBER_OF = re.compile(rf"\bnumber of (?:(?:the|pad|cut|its) )*{_SIDES}\b")
 _EXACTLY = re.compile(
     rf"\b(?:exactly|just|only) (?:on )?(?P<count>one|a single|two|three) {_SIDES}\b"
@@ -167,13 +169,11 @@ def _sides(words: str) -> str:
         named = [side for side in _FOUR if re.search(rf"\b{side}\b", words)]
         return " + ".join(f"cut_{side}" for side in named or _FOUR)
     if re.search(rf"\bmore than one (?:{_SIDES})\b", words):
-        return "cut_left + cut_right + cut_top + cut_bottom > 1"
+        return f"{_NUM_CUT} > 1"
     if several := _OR_MORE.search(words):
-        least = {"one": "1", "two": "2", "three": "3"}[several["count"]]
-        return f"cut_left + cut_right + cut_top + cut_bottom >= {least}"
+        return f"{_NUM_CUT} >= {_COUNTS[several['count']]}"
     if (exactly := _EXACTLY.search(words)) and not re.search(r"\b(?:newton|mm|percent)", words):
-        count = {"one": "1", "a single": "1", "two": "2", "three": "3"}[exactly["count"]]
-        return f"cut_left + cut_right + cut_top + cut_bottom == {count}"
+        return f"{_NUM_CUT} == {_COUNTS[exactly['count']]}"
     if _OPPOSITE.search(words):
         return "(cut_left and cut_right) or (cut_top and cut_bottom)"
     if found := _BOTH_OR_NEITHER.search(words):
