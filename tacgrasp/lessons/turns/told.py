@@ -14,9 +14,8 @@ from dataclasses import dataclass, replace
 
 from tacgrasp.lessons.dialogue.meaning import Amount, Meaning, Several, names_of
 from tacgrasp.lessons.dialogue.plainer import AUXILIARY
-from tacgrasp.lessons.dialogue.quantities import UNITS
 from tacgrasp.lessons.dialogue.scene import AskedScene, band_contract
-from tacgrasp.lessons.turns.units import dimension_of, unit_symbol
+from tacgrasp.lessons.turns.units import dimension_of, in_own_unit
 
 _N = r"(?P<{}>\d+(?:[.,]\d+)?)"
 _UNIT = r"(?P<{}>[a-zA-Zµ]+)"
@@ -107,8 +106,7 @@ def told_in(text: str, about: Meaning | None = None) -> tuple[Told, str] | None:
     if found is None and (circumstance := _BEFORE_IT.match(text)):
         found = _TOLD.fullmatch(text[circumstance.end() :])
     if found is None and (mass := _CORRECTED_MASS.fullmatch(text)):
-        size = UNITS[unit_symbol(mass["unit"])].size
-        return Told(mass_g=_float(mass["number"]) * size), ""
+        return Told(mass_g=in_own_unit(mass["number"], mass["unit"])), ""
     if found is None:
         return _told_freely(text)
     mass_g = _number(found, "mass", "mass")
@@ -116,7 +114,7 @@ def told_in(text: str, about: Meaning | None = None) -> tuple[Told, str] | None:
     high_n = _number(found, "high", "force")
     low_n = _number(found, "low", "force") if found["low_unit"] else None
     if high_n is not None and low_n is None:
-        low_n = _float(found["low"]) * high_n / _float(found["high"])
+        low_n = in_own_unit(found["low"], found["high_unit"])
     band_n = None if low_n is None or high_n is None else (low_n, high_n)
     if mass_g is None and limit_n is None and band_n is None:
         return None
@@ -195,18 +193,14 @@ def _told_freely(text: str) -> tuple[Told, str] | None:
     told = Told(is_supposed=bool(_SUPPOSES.match(words) and asked))
     masses, band = list(_IS_MASS.finditer(words)), _IS_BAND.search(words)
     if len(masses) == 1 and not _CHANGES.search(words):
-        size = UNITS[unit_symbol(masses[0]["unit"])].size
-        told = replace(told, mass_g=_float(masses[0]["number"]) * size)
+        told = replace(told, mass_g=in_own_unit(masses[0]["number"], masses[0]["unit"]))
     if band:
-        high_size = UNITS[unit_symbol(band["high_unit"])].size
-        low_size = UNITS[unit_symbol(band["low_unit"])].size if band["low_unit"] else high_size
-        ends = (_float(band["low"]) * low_size, _float(band["high"]) * high_size)
-        told = replace(told, band_n=ends)
+        low_n = in_own_unit(band["low"], band["low_unit"] or band["high_unit"])
+        told = replace(told, band_n=(low_n, in_own_unit(band["high"], band["high_unit"])))
     rest = f"{words[: band.start()]} {words[band.end() :]}" if band else words
     forces = list(_IS_FORCE.finditer(rest))
     if len(forces) == 1 and _BOUNDS.search(rest):
-        size = UNITS[unit_symbol(forces[0]["unit"])].size
-        told = replace(told, limit_n=_float(forces[0]["number"]) * size)
+        told = replace(told, limit_n=in_own_unit(forces[0]["number"], forces[0]["unit"]))
     elif forces:
         return None
     is_told = told.mass_g is not None or told.band_n is not None or told.limit_n is not None
@@ -229,11 +223,7 @@ def _number(found: re.Match[str], name: str, dimension: str) -> float | None:
     unit = found[f"{name}_unit"]
     if found[name] is None or dimension_of(unit) != dimension:
         return None
-    return _float(found[name]) * UNITS[unit_symbol(unit)].size
-
-
-def _float(number: str) -> float:
-    return float(number.replace(",", "."))
+    return in_own_unit(found[name], unit)
 
 
 def with_told(scene: AskedScene, told: Told) -> AskedScene:

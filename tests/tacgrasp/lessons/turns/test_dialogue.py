@@ -66,6 +66,15 @@ def test_a_limit_below_the_band_leaves_no_band(talk):
     assert ask("The limit is 0 N.").startswith("I can't take that: ")
 
 
+@pytest.mark.parametrize("told", ["The band is 0 to 0 N.", "The band is 1 to 0 N."])
+def test_a_band_that_ends_at_nothing_is_refused_and_changes_nothing(talk, told):
+    ask = talk()
+    assert ask(told).startswith("I can't take that: ")
+    assert ask("What is the band?") == (
+        "The least force wanted is 0.60 N; the most force wanted is 1.00 N."
+    )
+
+
 def test_how_sure_an_answer_is_is_told_by_its_interval_or_chances(talk):
     ask = talk()
     assert ask("How deep is it?", "Are you sure?").startswith("In nine cases of ten it is between")
