@@ -49,7 +49,8 @@ def rig_findings(config: RunConfig, *, soak_s: float = 0.0) -> Sequence[Finding]
         return [*findings, finding("rig", "devices", True, detail), _drawn_force(config)]
     findings += _library_findings()
     if config.devices == "hardware":
-        devices = device_findings(config.hardware, config.gripper.first_force_n)
+        gripper = config.gripper
+        devices = device_findings(config.hardware, gripper.first_force_n, gripper.max_force_n)
         return [*findings, *devices, *_soak(config, config.hardware, soak_s)]
     return [*findings, *_emulated_findings(config, config.hardware, soak_s)]
 
@@ -159,7 +160,7 @@ def _emulated_findings(config: RunConfig, hardware: HardwareConfig, soak_s: floa
             first_force_n = config.gripper.first_force_n
             if first_force_n is None:
                 first_force_n = float(str(emulators.ready["first_force_n"]))
-            devices = device_findings(settings, first_force_n)
+            devices = device_findings(settings, first_force_n, config.gripper.max_force_n)
             devices += _soak(config, settings, soak_s)
             return [finding("rig", "emulators", True, ready), *devices]
     except RobotError as error:

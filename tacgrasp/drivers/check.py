@@ -46,6 +46,21 @@ def finding(device: str, name: str, ok: bool, detail: str, advice: str = "") -> 
     return Finding(device=device, name=name, ok=ok, detail=detail, advice="" if ok else advice)
 
 
+def force_limit_problem(max_force_n: float, device_n: float) -> str:
+    """Why a rig's largest force does not fit its gripper; empty where it does.
+
+    Args:
+        max_force_n: The rig's ``gripper.max_force_n`` [N].
+        device_n: Largest force that the gripper can be commanded [N].
+    """
+    if max_force_n <= device_n:
+        return ""
+    return (
+        f"gripper.max_force_n {max_force_n:g} N is beyond this gripper, whose calibration and "
+        f"current allow {device_n:.2f} N; lower it in the rig's file"
+    )
+
+
 def read_durations_ms(read: Callable[[], object], count: int) -> tuple[float, float, float]:
     """Median, 99 % quantile and maximum of the durations of ``count`` reads [ms]."""
     durations_ms = []

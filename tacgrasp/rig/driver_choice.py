@@ -10,10 +10,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from cltp.errors import TouchError
-from primitives.devices import Arm, Gripper
+from primitives.devices import Arm, Gripper, Pose
 from primitives.errors import RobotError
 from tacgrasp.config.hardware import ArmSettings, GripperSettings
-from tacgrasp.drivers.check import Finding, finding
+from tacgrasp.drivers.check import Finding, finding, force_limit_problem
 from tacgrasp.drivers.dynamixel.settings import DynamixelSettings
 from tacgrasp.drivers.plugin import (
     PluginArmSettings,
@@ -99,22 +99,38 @@ def connect_gripper_of(settings: GripperSettings) -> ConnectedGripper:
     )
 
 
-def arm_findings(settings: ArmSettings) -> Sequence[Finding]:
-    """Check the arm for ``tacgrasp doctor``."""
+def arm_findings(settings: ArmSettings, way_problem: Callable[[Pose], str]) -> Sequence[Finding]:
+    """Check the arm for ``tacgrasp doctor``.
+
+    Args:
+        settings: The arm's section of the rig's file.
+        way_problem: Why the arm may not go to its start by itself from a pose; empty where it may.
+    """
     if isinstance(settings, UrSettings):
         from tacgrasp.drivers.ur import preflight
 
-        return preflight.check(settings)
+        return preflight.check(settings, way_problem)
     return check_plugin("arms", settings)
 
 
-def gripper_findings(settings: GripperSettings, first_force_n: float | None) -> Sequence[Finding]:
-    """Check the gripper for ``tacgrasp doctor``; ``first_force_n`` [N] is checked where given."""
+def gripper_findings(
+    settings: GripperSettings, first_force_n: float | None, max_force_n: float
+) -> Sequence[Finding]:
+    """Check the gripper for ``tacgrasp doctor``.
+
+    Args:
+        settings: The gripper's section of the rig's file.
+        first_force_n: The rig's ``gripper.first_force_n`` [N]; None is not checked.
+        max_force_n: The rig's ``gripper.max_force_n`` [N].
+    """
     if isinstance(settings, DynamixelSettings):
         from tacgrasp.drivers.dynamixel import gripper
 
-        return gripper.check(settings, first_force_n=first_force_n)
-    return check_plugin("grippers", settings)
+        return gripper.check(settings, first_force_n=first_force_n, max_force_n=max_force_n)
+    problem = force_limit_problem(max_force_n, settings.max_force_n)
+    detail = f"{max_force_n:g} N at most, of {settings.max_force_n:g} N"
+    force = finding("gripper", "largest force", not problem, detail, f"a run is refused: {problem}")
+    return [*check_plugin("grippers", settings), force]
 
 
 PluginSettings = PluginArmSettings | PluginGripperSettings | PluginSensorSettings

@@ -23,7 +23,7 @@ from primitives.errors import LimitError, RobotError
 from primitives.limits import check_workspace, distance_mm
 from tacgrasp.config.hardware import HardwareConfig, SensorSettings, StartConfig
 from tacgrasp.config.schema import RunConfig
-from tacgrasp.drivers.check import Finding, finding
+from tacgrasp.drivers.check import Finding, finding, force_limit_problem
 from tacgrasp.drivers.dynamixel.settings import DynamixelSettings
 from tacgrasp.drivers.force_scale import force_finding
 from tacgrasp.drivers.gelsight.settings import GelSightSettings
@@ -205,17 +205,30 @@ def connect_sensor(settings: SensorSettings) -> WatchedSensor:
     return connect_driver()
 
 
-def device_findings(hardware: HardwareConfig, first_force_n: float | None) -> list[Finding]:
+def device_findings(
+    hardware: HardwareConfig, first_force_n: float | None, max_force_n: float
+) -> list[Finding]:
     """Check arm, gripper and sensor for ``tacgrasp doctor``; nothing moves.
 
     Args:
         hardware: The devices.
         first_force_n: The rig's ``gripper.first_force_n`` [N]; None is not checked.
+        max_force_n: The rig's ``gripper.max_force_n`` [N].
     """
     _, check_sensor = _sensor_driver(hardware.sensor)
-    arm, gripper = arm_findings(hardware.arm), gripper_findings(hardware.gripper, first_force_n)
-    force = [force_finding(hardware.sensor)] if hardware.sensor.is_live else []
-    return [_computer(), *arm, *gripper, *check_sensor(), *force]
+    arm = arm_findings(hardware.arm, partial(_way_problem, hardware.start))
+    gripper = gripper_findings(hardware.gripper, first_force_n, max_force_n)
+    of_touch = force_finding(hardware.sensor) if hardware.sensor.is_live else _PLAYS
+    return [_computer(), *arm, *gripper, *check_sensor(), of_touch]
+
+
+_PLAYS = finding(
+    "sensor",
+    "touch",
+    False,
+    "plays a recording: nothing is felt",
+    "a run is refused, one with --dry-run is not; name a sensor that feels in the rig's file",
+)
 
 
 def _computer() -> Finding:
@@ -246,11 +259,8 @@ def _sensor_driver(settings: SensorSettings) -> _SensorDriver:
 
 def _check_forces(config: RunConfig, device_n: float) -> None:
     """Refuse force limits beyond the gripper's own, before anything has moved."""
-    if config.gripper.max_force_n > device_n:
-        raise LimitError(
-            f"gripper.max_force_n {config.gripper.max_force_n:g} N is beyond this gripper, whose "
-            f"calibration and current allow {device_n:.2f} N; lower it in the rig's file"
-        )
+    if problem := force_limit_problem(config.gripper.max_force_n, device_n):
+        raise LimitError(problem)
 
 
 def start_pose(start: StartConfig) -> Pose | None:
@@ -258,6 +268,19 @@ def start_pose(start: StartConfig) -> Pose | None:
     if start.position_m is None or start.rotvec_rad is None:
         return None
     return Pose(position_m=np.array(start.position_m), rotvec_rad=np.array(start.rotvec_rad))
+
+
+def _way_problem(start: StartConfig, current: Pose) -> str:
+    """Why the arm may not go from a pose to its start by itself; empty where it may."""
+    pose = start_pose(start)
+    offset_mm = 0.0 if pose is None else distance_mm(current, pose)
+    if offset_mm <= start.max_way_mm:
+        return ""
+    return (
+        f"the arm stands {offset_mm:.0f} mm from its start pose, more than the "
+        f"{start.max_way_mm:g} mm that it may go by itself (hardware.start.max_way_mm); bring "
+        "it nearer with tacgrasp jog or at the pendant"
+    )
 
 
 def _go_to_start(arm: Arm, start: StartConfig, config: RunConfig) -> Pose:
@@ -271,14 +294,9 @@ def _go_to_start(arm: Arm, start: StartConfig, config: RunConfig) -> Pose:
     if pose is None:
         return current
     check_workspace(pose, config.limits())
-    offset_mm = distance_mm(current, pose)
-    if offset_mm > start.max_way_mm:
-        raise RobotError(
-            f"the arm stands {offset_mm:.0f} mm from its start pose, more than the "
-            f"{start.max_way_mm:g} mm that it may go by itself (hardware.start.max_way_mm); bring "
-            "it nearer with tacgrasp jog or at the pendant"
-        )
-    if config.dry_run or offset_mm <= AT_START_MM:
+    if problem := _way_problem(start, current):
+        raise RobotError(problem)
+    if config.dry_run or distance_mm(current, pose) <= AT_START_MM:
         return pose
     arm.move_to(pose, speed_m_s=start.speed_m_s)
     return pose

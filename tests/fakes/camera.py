@@ -30,5 +30,12 @@ class Camera:
         self.frames += not self.frozen
         return (self.picture + NOISE[self.frames % 4]).clip(0, 255).astype(np.uint8)
 
+    def show(self, picture):
+        """Put a picture before it and wait until a frame of it has been taken."""
+        self.picture, wanted, until_s = picture, self.frames + 3, time.monotonic() + 10
+        while self.frames < wanted:  # one was under way, and the last may not be handed over yet
+            assert time.monotonic() < until_s, "the camera gives no frames"
+            time.sleep(0.005)
+
     def close(self):
         self.closed = True

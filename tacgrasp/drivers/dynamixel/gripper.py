@@ -18,7 +18,12 @@ from pathlib import Path
 
 from primitives.devices import GripperState
 from primitives.errors import LimitError, RobotError
-from tacgrasp.drivers.check import Finding, finding, read_durations_ms
+from tacgrasp.drivers.check import (
+    Finding,
+    finding,
+    force_limit_problem,
+    read_durations_ms,
+)
 from tacgrasp.drivers.dynamixel import registers as reg
 from tacgrasp.drivers.dynamixel.bus import Bus
 from tacgrasp.drivers.dynamixel.calibration import (
@@ -61,8 +66,7 @@ class DynamixelGripper:
     @property
     def max_force_n(self) -> float:
         """Largest force [N], limited by the calibrated range and by ``max_current_ma``."""
-        limit_n = self._calibration.force_n(self._fingers.settings.max_current_ma)
-        return min(self._calibration.max_force_n, limit_n)
+        return _largest_n(self._calibration, self._fingers.settings)
 
     @property
     def force_step_n(self) -> float:
@@ -171,8 +175,16 @@ def connect_gripper(
     return DynamixelGripper(fingers, calibration)
 
 
+def _largest_n(calibration: GripperCalibration, settings: DynamixelSettings) -> float:
+    return min(calibration.max_force_n, calibration.force_n(settings.max_current_ma))
+
+
 def check(
-    settings: DynamixelSettings, *, folder: Path = Path(), first_force_n: float | None = None
+    settings: DynamixelSettings,
+    *,
+    folder: Path = Path(),
+    first_force_n: float | None = None,
+    max_force_n: float | None = None,
 ) -> Sequence[Finding]:
     """Check the gripper for ``tacgrasp doctor``; nothing is written to it, nothing moves.
 
@@ -180,6 +192,7 @@ def check(
         settings: The gripper's section of the rig's file.
         folder: Folder of the rig's file; the calibration's path is relative to it.
         first_force_n: The rig's ``gripper.first_force_n`` [N]; None is not checked.
+        max_force_n: The rig's ``gripper.max_force_n`` [N]; None is not checked.
     """
     bus, adapter = Bus(settings), ""
     findings = []
@@ -201,7 +214,7 @@ def check(
     return [
         *findings,
         _calibration(settings, folder, adapter),
-        *_first_force(settings, folder, first_force_n),
+        *_forces(settings, folder, first_force_n, max_force_n),
     ]
 
 
@@ -252,16 +265,32 @@ def _calibration(settings: DynamixelSettings, folder: Path, adapter: str) -> Fin
     return _finding("calibration", not reason, detail, reason)
 
 
-def _first_force(
-    settings: DynamixelSettings, folder: Path, first_force_n: float | None
+def _forces(
+    settings: DynamixelSettings,
+    folder: Path,
+    first_force_n: float | None,
+    max_force_n: float | None,
 ) -> list[Finding]:
-    """Whether an approach can begin below its limit; nothing without a calibration."""
+    """Whether the gripper can make the rig's forces; nothing without a calibration."""
     try:
         calibration = load_calibration(folder / settings.calibration)
     except RobotError:  # a finding of its own
         return []
-    if first_force_n is None:
-        return []
+    found = []
+    if first_force_n is not None:
+        found.append(_first_force(settings, calibration, first_force_n))
+    if max_force_n is not None:
+        device_n = _largest_n(calibration, settings)
+        problem = force_limit_problem(max_force_n, device_n)
+        detail = f"{max_force_n:g} N at most, of {device_n:.2f} N that the gripper can make"
+        found.append(_finding("largest force", not problem, detail, f"a run is refused: {problem}"))
+    return found
+
+
+def _first_force(
+    settings: DynamixelSettings, calibration: GripperCalibration, first_force_n: float
+) -> Finding:
+    """Whether an approach can begin below its limit."""
     unit_ma = reg.MODELS[settings.model].unit_ma
     least_n = calibration.least_n(unit_ma)
     detail = (
@@ -272,4 +301,4 @@ def _first_force(
         "an approach would press harder than gripper.first_force_n: set it to the least command or "
         "more, and grasp nothing that so much force bruises; or take a gripper with finer steps"
     )
-    return [_finding("first force", least_n <= first_force_n, detail, advice)]
+    return _finding("first force", least_n <= first_force_n, detail, advice)

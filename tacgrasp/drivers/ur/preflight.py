@@ -10,12 +10,13 @@ import logging
 import re
 import socket
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import closing
 from functools import partial
 
 import numpy as np
 
+from primitives.devices import Pose
 from primitives.errors import RobotError
 from tacgrasp.drivers.check import Finding, finding
 from tacgrasp.drivers.ur.dashboard import SCRIPT_PORT, Dashboard, Rtde
@@ -73,17 +74,28 @@ def preflight(settings: UrSettings) -> None:
             )
 
 
-def check(settings: UrSettings) -> Sequence[Finding]:
-    """Check the arm for ``tacgrasp doctor``; takes about a second, moves and sets nothing."""
-    return controller_findings(settings, seconds=1.0)
+def check(
+    settings: UrSettings, way_problem: Callable[[Pose], str] | None = None
+) -> Sequence[Finding]:
+    """Check the arm for ``tacgrasp doctor``; takes about a second, moves and sets nothing.
+
+    Args:
+        settings: The arm's section of the rig's file.
+        way_problem: Why the arm may not go to its start by itself from a pose, empty where it may;
+            None is not checked.
+    """
+    return controller_findings(settings, seconds=1.0, way_problem=way_problem)
 
 
-def controller_findings(settings: UrSettings, *, seconds: float) -> list[Finding]:
+def controller_findings(
+    settings: UrSettings, *, seconds: float, way_problem: Callable[[Pose], str] | None = None
+) -> list[Finding]:
     """Run the checks in order; ends early if the remaining ones can't be run.
 
     Args:
         settings: The arm's section of the rig's file.
         seconds: Time of listening to the data stream [s].
+        way_problem: As for ``check``.
     """
     findings: list[Finding] = []
     try:
@@ -95,7 +107,7 @@ def controller_findings(settings: UrSettings, *, seconds: float) -> list[Finding
         return findings
     try:
         with closing(Rtde(settings.host)) as rtde:
-            findings += [*_on_rtde(rtde, settings, seconds)]
+            findings += [*_on_rtde(rtde, settings, seconds, way_problem)]
     except RobotError as error:
         findings.append(_finding("RTDE", False, str(error), "Nothing was moved."))
     return [*findings, _script_port(settings.host)]
@@ -154,7 +166,12 @@ def _no_program(dashboard: Dashboard) -> Finding:
     return _finding("program", True, "none runs")
 
 
-def _on_rtde(rtde: Rtde, settings: UrSettings, seconds: float) -> Iterator[Finding]:
+def _on_rtde(
+    rtde: Rtde,
+    settings: UrSettings,
+    seconds: float,
+    way_problem: Callable[[Pose], str] | None,
+) -> Iterator[Finding]:
     yield _finding("RTDE", True, "controller {}.{}".format(*rtde.version()))
     in_use = rtde.inputs_in_use()
     detail = f"{len(in_use)} in use, {in_use[0]} first" if in_use else "free"
@@ -177,6 +194,8 @@ def _on_rtde(rtde: Rtde, settings: UrSettings, seconds: float) -> Iterator[Findi
     else:
         yield _stream(arrivals, settings)
     yield from _state(sample, settings)
+    if way_problem is not None and _is_tcp_set(sample, settings):
+        yield _way(sample, way_problem)
 
 
 def _stream(arrivals: list[float], settings: UrSettings) -> Finding:
@@ -203,15 +222,30 @@ def _state(sample: dict[str, tuple[float, ...]], settings: UrSettings) -> Iterat
     yield _finding("speed slider", fraction >= least, f"{fraction:.0%}", advice)
     x, y, z = sample["actual_TCP_pose"][:3]
     position = f"at ({x:.3f}, {y:.3f}, {z:.3f}) m"
-    configured = [*settings.tcp_offset_m, *settings.tcp_offset_rad]
     detail = f"as set, {position}"
-    if not np.allclose(sample.get("tcp_offset", np.nan), configured, atol=1e-5):
-        detail = f"another one is set now, {position}; {configured} set when connected"
+    if not _is_tcp_set(sample, settings):
+        detail = f"another one is set now, {position}; {_tcp(settings)} set when connected"
     yield _finding("TCP", True, detail)
     if "payload" in sample:
         kg = sample["payload"][0]
         setting = "as set" if abs(kg - settings.payload_kg) < 1e-3 else "set when connected"
         yield _finding("payload", True, f"{kg:.3g} kg; {settings.payload_kg:g} kg {setting}")
+
+
+def _is_tcp_set(sample: dict[str, tuple[float, ...]], settings: UrSettings) -> bool:
+    return np.allclose(sample.get("tcp_offset", np.nan), _tcp(settings), atol=1e-5)
+
+
+def _tcp(settings: UrSettings) -> list[float]:
+    return [*settings.tcp_offset_m, *settings.tcp_offset_rad]
+
+
+def _way(sample: dict[str, tuple[float, ...]], way_problem: Callable[[Pose], str]) -> Finding:
+    """Whether the arm may go to its start from where it stands."""
+    pose = np.array(sample["actual_TCP_pose"])
+    problem = way_problem(Pose(position_m=pose[:3], rotvec_rad=pose[3:]))
+    detail = problem.partition(";")[0] or "short enough to go by itself"
+    return _finding("way to start", not problem, detail, f"a run is refused: {problem}")
 
 
 def _script_port(host: str) -> Finding:

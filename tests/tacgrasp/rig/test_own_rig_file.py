@@ -326,6 +326,45 @@ def test_doctor_names_a_start_that_a_run_would_refuse(rig, tmp_path, capsys):
         assert is_ok or "in metres" in line
 
 
+@pytest.mark.parametrize(
+    ("section", "changed", "check", "expected"),
+    [
+        (
+            "start",
+            {"max_way_mm": 5, "position_m": [0.45, -0.1, 0.21]},
+            "way to start",
+            "10 mm from",
+        ),
+        ("gripper", {"max_force_n": 80}, "largest force", "80 N is beyond this gripper"),
+    ],
+)
+def test_doctor_refuses_what_a_run_would(section, changed, check, expected, rig, tmp_path, capsys):
+    path = tmp_path / "mine.yaml"
+    found = []
+    for values in ({}, changed):
+        (rig["hardware"][section] if section == "start" else rig[section]).update(values)
+        path.write_text(yaml.safe_dump(rig))
+        main(["doctor", "--rig", str(path)])
+        lines = capsys.readouterr().out.splitlines()
+        found += [line for line in lines if f" {check} " in line]
+    assert " NOT OK " not in found[0]
+    assert " NOT OK " in found[1]
+    assert expected in found[1]
+    code, message = complaint(rig, tmp_path, capsys)
+    assert code == 3
+    assert expected in message
+
+
+def test_doctor_says_that_a_recording_feels_nothing(rig, emulators, recording, tmp_path, capsys):
+    rig["hardware"]["sensor"] = recording
+    path = tmp_path / "mine.yaml"
+    path.write_text(yaml.safe_dump(rig))
+    assert main(["doctor", "--rig", str(path)]) == 1
+    (line,) = [x for x in capsys.readouterr().out.splitlines() if x.startswith("sensor   touch")]
+    assert " NOT OK " in line
+    assert "--dry-run" in line
+
+
 def test_a_port_that_is_another_devices_is_refused(rig, emulators, tmp_path, capsys):
     rig["hardware"]["gripper"]["port"] = emulators.ready["sensor_port"]
     rig["hardware"]["sensor"] |= {"port": emulators.ready["gripper_port"], "connect_timeout_s": 1}
