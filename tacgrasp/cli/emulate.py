@@ -8,7 +8,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Sequence
 
-from sim.emulators.options import OPTIONS
+from sim.emulators.options import OPTIONS, RigOptions
 from tacgrasp.base.errors import UsageError
 from tacgrasp.cli.flags import parse, subcommand
 
@@ -18,7 +18,11 @@ def main(argv: Sequence[str]) -> int:
     kind, rest = subcommand("emulate", argv, {kind: str(o.__doc__) for kind, o in OPTIONS.items()})
     if kind is None:
         return 0
-    parse(OPTIONS[kind], rest, prog=f"tacgrasp emulate {kind}")  # refuses wrong options at once
+    options: object = parse(OPTIONS[kind], rest, prog=f"tacgrasp emulate {kind}")  # refused at once
+    if isinstance(options, RigOptions):
+        from tacgrasp.rig.factory import check_object
+
+        check_object(options.object, options.object_mesh, is_emulated=True)
     emulate(kind, rest, time.sleep)
     return 0
 

@@ -6,6 +6,7 @@ A rig of supported devices needs only its YAML file. A new driver gets a line in
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from primitives.contract import Contract
@@ -114,22 +115,31 @@ def check_names(config: RunConfig) -> None:
 
 
 def _check_object(config: RunConfig) -> None:
+    check_object(config.object, config.object_mesh, is_emulated=config.devices == "emulated")
+
+
+def check_object(name: str, mesh: Path | None, *, is_emulated: bool) -> None:
+    """Check an object and its mesh; one of a plugin is made known to the simulator.
+
+    Raises:
+        UsageError: The simulator, or the emulators, know no such object, or the mesh doesn't exist.
+    """
     from sim.grasp.bodies import OBJECTS, ObjectKind, add_object
 
-    if config.object not in object_names() and config.object in plugins("objects"):
-        if config.devices == "emulated":
+    if name not in object_names() and name in plugins("objects"):
+        if is_emulated:
             raise UsageError(
-                f"the emulators know no object of a plugin ({config.object}); use the simulated rig"
+                f"the emulators know no object of a plugin ({name}); use the simulated rig"
             )
-        kind = load_plugin("objects", config.object, object_refusal)
+        kind = load_plugin("objects", name, object_refusal)
         assert isinstance(kind, ObjectKind)  # the check has refused everything else
-        add_object(config.object, kind)
-        _ADDED.add(config.object)
-    if config.object not in OBJECTS:
+        add_object(name, kind)
+        _ADDED.add(name)
+    if name not in OBJECTS:
         known = ", ".join(names_with("objects", OBJECTS))
-        raise UsageError(f"the simulator has no object {config.object!r}; known: {known}")
-    if config.object_mesh is not None and not config.object_mesh.is_file():
-        raise UsageError(f"--object-mesh {config.object_mesh} does not exist")
+        raise UsageError(f"the simulator has no object {name!r}; known: {known}")
+    if mesh is not None and not mesh.is_file():
+        raise UsageError(f"--object-mesh {mesh} does not exist")
 
 
 def object_names() -> list[str]:

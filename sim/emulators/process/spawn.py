@@ -100,9 +100,8 @@ class EmulatorProcess:
         return without_class(last)
 
     def _end(self) -> None:
-        for pipe in (self._child.stdin, self._child.stdout):
-            if pipe is not None and not pipe.closed:
-                pipe.close()
+        if self._child.stdin is not None:
+            self._child.stdin.close()
         if self._child.poll() is None:
             self._child.terminate()
             try:
@@ -110,4 +109,6 @@ class EmulatorProcess:
             except subprocess.TimeoutExpired:
                 self._child.kill()
                 self._child.wait(END_S)
+        if self._child.stdout is not None:  # last: it waits for who still reads a ready line
+            self._child.stdout.close()
         self._errors.close()

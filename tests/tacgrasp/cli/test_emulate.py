@@ -22,3 +22,24 @@ def test_a_taxel_array_that_can_not_be_is_refused(
     assert error.startswith("tacgrasp: ")
     assert option in error
     assert error.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    ("option", "value", "message"),
+    [
+        ("--object", "unicorn", "no object 'unicorn'; known: strawberry"),
+        ("--object-mesh", "nowhere.stl", "nowhere.stl does not exist"),
+    ],
+)
+def test_an_object_that_is_not_there_is_refused_before_an_emulator_starts(
+    option: str,
+    value: str,
+    message: str,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("tacgrasp.cli.emulate.emulate", lambda *_: pytest.fail("it was started"))
+    assert main(["emulate", "rig", option, value]) == 2
+    error = capsys.readouterr().err
+    assert message in error
+    assert error.count("\n") == 1
