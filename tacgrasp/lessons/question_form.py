@@ -204,6 +204,22 @@ def alone_asked(question: str) -> str:
     return asking[0]
 
 
+_ASIDE = re.compile(r"\s*\((?!s\))[^()\d]*\)|,? if (?:any|at all)(?=[?.! ]*$)", re.I)
+_REPLY_FIRST = re.compile(
+    r"^(?:yes or no|one word|in a word|short answer|quick (?:one|question))"
+    r"(?:,? (?:nothing else|no more|only|please|nothing more|just that))*[:,.–—-]+ +",
+    re.I,
+)
+
+
+def without_aside(question: str) -> str:
+    """A question without what it says aside, and without how it wants to be replied to.
+
+    'How far is it from the lower end (the fingertip)?', 'Yes or no, nothing else: is it deep?'
+    """
+    return _REPLY_FIRST.sub("", _ASIDE.sub("", question))
+
+
 def denied_statement(question: str) -> str:
     """The statement that a question calls false ('is it untrue that it is deep?'); '' if none."""
     found = _CALLED_FALSE.match(plainer(question))

@@ -58,7 +58,7 @@ from tacgrasp.lessons.dialogue.query import (
 )
 from tacgrasp.lessons.dialogue.rules.advised import advised, step_asked
 from tacgrasp.lessons.dialogue.rules.friction import frictional
-from tacgrasp.lessons.dialogue.rules.members import member_of
+from tacgrasp.lessons.dialogue.rules.members import member_of, verdict_of
 from tacgrasp.lessons.dialogue.rules.regions import of_region
 from tacgrasp.lessons.dialogue.rules.ruled import ruled_whole
 from tacgrasp.lessons.dialogue.rules.unread import is_beyond
@@ -86,6 +86,7 @@ from tacgrasp.lessons.question_form import (
     is_one_clause,
     is_unlikely,
     with_number_before,
+    without_aside,
     without_topic,
 )
 from tacgrasp.lessons.read_question import ReadQuestion
@@ -166,6 +167,7 @@ def understood_by_grammar(question: str, before: str = "") -> ReadQuestion | Non
         return affirmed
     meaning = judged_as_one(question) if is_doubted_statement(question) else None
     meaning = meaning or with_adjective(question) or either_of(question) or step_asked(question)
+    meaning = meaning or verdict_of(question)
     meaning = meaning or understand(question, before=before)
     if not before and isinstance(meaning, Unknowable):
         meaning = ruled_whole(plain) or meaning  # 'is it a square' is no question for a name
@@ -223,7 +225,7 @@ def _read_alone(question: str) -> Meaning | None:
 
 def _by_other_words(question: str, before: str) -> ReadQuestion | None:
     """What a question means by the grammar once slips, or remarks beside it, are taken out."""
-    for plain in (respelled(question), alone_asked(question)):
+    for plain in (respelled(question), alone_asked(question), without_aside(question)):
         if plain != question:
             return understood_by_grammar(plain, before)
     if before:

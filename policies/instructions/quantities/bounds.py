@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 
-from policies.instructions.english.denials import NO_CASE
+from policies.instructions.english.denials import FORBIDDEN_AFTER, NO_CASE
 from policies.instructions.quantities.force_units import LOOSE, NUMBER, UNIT
 
 _ONE = rf"(?P<one>{NUMBER}(?:\s*-?\s*(?:{UNIT}|{LOOSE})\b)?(?: of (?:grip )?force\b)?)"
@@ -27,7 +27,16 @@ _ADVERB = r"(?: \w+ly| ever| to| be| under any circumstances| at any time)*"
 _BEHIND = rf"{_ONE}{_WHAT},? (?:(?:which|that) )?(?:{_MODAL} )*{_NOT}{_ADVERB} "
 _SHORT_WORDS = r"(?:(?!no\b|not\b|nor\b|never\b)\w+ ){0,2}"
 
+_DENIED = r"\b(?:not|never|no|avoid\w*|without|nothing|refrain\w* from|stay\w* (?:away|clear) (?:from|of))\b(?! (?:hesitate|forget|fail|mind|worry|be (?:afraid|shy)|need|problem|reason|less|more)\b)"
+_OR_MORE = r",? (?:or|and) (?:anything )?(?:more|above|over|higher|up|upwards?|beyond|greater|harder|firmer|stronger)\b(?! (?:than )?[\d.])"
+_OR_LESS = r",? (?:or|and) (?:anything )?(?:less|under|below|lower|down|downwards?|smaller|softer|gentler|lighter)\b(?! (?:than )?[\d.])"
+_THERE = r"[^.;:,#\d]{0,50}?"
+
 _PLAIN: tuple[tuple[str, str], ...] = (
+    (rf"({_DENIED}{_THERE} ?){_ONE}{_OR_MORE}", r"\1more than \g<one>"),
+    (rf"({_DENIED}{_THERE} ?){_ONE}{_OR_LESS}", r"\1less than \g<one>"),
+    (rf"{_ONE}{_OR_MORE} (?={FORBIDDEN_AFTER})", r"more than \g<one> "),
+    (rf"{_ONE}{_OR_LESS} (?={FORBIDDEN_AFTER})", r"less than \g<one> "),
     (rf"{_BEHIND}{_EXCEEDED}\b", r"at most \g<one>"),
     (rf"{_BEHIND}{_UNDERCUT}\b", r"at least \g<one>"),
     (rf"\bwithout {_ONE}{_WHAT} (?:ever )?being {_EXCEEDED}\b", r"at most \g<one>"),

@@ -14,7 +14,7 @@ _AT_MOST = re.compile(
     r"\b(?:(?:no|not|n't|never) (?:\w+ ){0,3}?(?:more|harder|firmer|tighter|higher) than|at (?:the )?most|"
     r"up to|maximum(?: of)?|less than|below|under|not over|not above|without exceeding) (?:about )?$"
 )
-_USUAL = r"(?:the |your |its |that |what (?:you|is) |our |as )"
+_USUAL = r"(?:(?:the |your |its |that |our )(?!(?:\w+ )?(?:weight|mass)\b)|what (?:you|is) |as )"
 _HOW = r"(?:hard|firm(?:ly)?|tight(?:ly)?|strong(?:ly)?|much|gentl[ey]|soft(?:ly)?|light(?:ly)?|forceful(?:ly)?)"
 _UP = r"(?:more|harder|firmer|tighter|stronger|higher|above|extra|over|up|heavier)"
 _DOWN = r"(?:less|softer|gentler|lighter|weaker|lower|below|under|looser|down|fewer)"

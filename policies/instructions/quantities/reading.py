@@ -18,6 +18,7 @@ from policies.instructions.quantities.force_units import NUMBER, UNIT, number
 from policies.instructions.quantities.forces import read_forces
 from policies.instructions.quantities.masses import Masses, without_masses
 from policies.instructions.quantities.numerals import in_digits
+from policies.instructions.quantities.others import without_other_forces
 from policies.instructions.quantities.places import AREA, place_words, read_lengths
 from policies.instructions.quantities.tolerances import with_plain_tolerances, without_lone
 from policies.instructions.quantities.unknown_units import undecided_force, unknown_force
@@ -82,7 +83,7 @@ def read_quantities(text: str) -> Quantities:
     """Read the numbers of a plain text (``policies.instructions.english.text.plain``)."""
     text = _ELLIPSIS.sub(r"no \2 than \3 \1", in_digits(text))
     text, masses = without_masses(text)
-    text = re.sub(rf"({NUMBER}), (?=newtons?\b)", r"\1 ", text)
+    text = re.sub(rf"({NUMBER}), (?=newtons?\b)", r"\1 ", without_other_forces(text))
     text = re.sub(r"(?<=\d)['\u00a0\u202f ](?=\d{3}\b(?! ?mm))", "", text)  # 1 400 mN
     text = re.sub(rf"({NUMBER})\s?-?ish\b", r"\1", text)
     text = re.sub(rf"({NUMBER}) ?\(((?:{UNIT}))\)", r"\1 \2", text)

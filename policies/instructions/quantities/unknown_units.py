@@ -47,6 +47,11 @@ _MALFORMED = re.compile(
 )
 
 
+_OF_WEIGHT = re.compile(
+    rf"\b(?:twice|double|thrice|triple|half|(?:{NUMBER}|two|three|four|five|ten)\s?(?:times|x)) (?:(?:of|the|its|his|their|that|this) )*"
+    r"(?:own |(?:straw)?berry'?s? |fruit'?s? |object'?s? |egg'?s? )?(?:weight|mass)\b(?! (?:of )?(?:#|as|limit))"
+)
+"""'Hold it with three times its weight'."""
 _VAGUE = re.compile(
     r"\b(?:some|(?:(?P<few>(?:a (?:good )?|only |just |the |with |use |using |apply |about |than |most )few|several)|"
     r"(?:a |any )?(?:handful|number|bunch|dozens|hundreds|lots?|loads?) of|umpteen|(?:god|who) knows how many)(?(few)(?: \d+(?:\.\d+)?)?)(?: odd)?)"
@@ -91,6 +96,8 @@ def unknown_force(text: str) -> str:
         return f"{match[0]!r} is no number; say it as '1.2 N'"
     if match := re.search(rf"\d(?:[.,]\d+)?e[+-]?\d{{5,}}\s*(?:{UNIT})\b", text):
         return f"{match[0]!r} is no force; say it as '1.2 N'"
+    if match := _OF_WEIGHT.search(text):
+        return f"{match[0]!r} is a multiple of a weight; say the force in newtons, as in '1.5 N'"
     if match := _FORMULA.search(text):
         return f"{match[0]!r} is a formula; name the force as one number, as in '1.5 N'"
     if match := _DERIVED.search(text):

@@ -274,6 +274,7 @@ _HOWS = re.compile(
     r"(?=the |it |this |that |my )",
     re.I,
 )
+_HOW_FAR_AWAY = re.compile(r"(?<=\bhow far) away(?= (?:is|are|was|am)\b.*\bfrom\b)", re.I)
 _UNIT_BEHIND = re.compile(
     r"\?\s+(?:(?:give it |answer )?in )?(?P<unit>newtons?|N|mN|millinewtons?|mm|millimet(?:re|"
     r"er)s?|"
@@ -284,7 +285,7 @@ _UNIT_BEHIND = re.compile(
 
 def plainer(question: str) -> str:
     """A question without address, thanks and tag, and without the denial that expects 'yes'."""
-    question = _HOWS.sub(r"\g<how> is ", question)
+    question = _HOW_FAR_AWAY.sub("", _HOWS.sub(r"\g<how> is ", question))
     question = _UNIT_BEHIND.sub(lambda unit: f" in {unit['unit']}?", question)
     text = _THOU.sub("thou", " ".join(_CONSTANT.sub("", question).split()))
     text = _SQUARED.sub(

@@ -19,12 +19,13 @@ from tacgrasp.lessons.dialogue.meaning import (
 )
 from tacgrasp.lessons.turns.leads import END, LEAD, without_lead
 
+_ASKED_END = r"(?:where does it |where's the |what(?:'s| is) |the |its |it )*"
+_AGREED = r"(?: (?:of the band|we agreed on|allowed))?"
 _BAND_WORDS = {
-    r"(?:where does it |where's the |the |its |it )*(?:end|ends|stop|stops|(?:upper|high|"
-    r"higher)(?: end| one)?|top)":
-        "What is the upper end of the band?",
-    r"(?:where does it |where's the |the |its |it )*(?:start|starts|begin|begins|low(?:er)?(?: "
-    r"end| one)?|bottom)": "What is the lower end of the band?",
+    rf"{_ASKED_END}(?:end|ends|stop|stops|(?:upper|high|higher|highest|largest|most)"
+    rf"(?: end| one)?|top){_AGREED}": "What is the upper end of the band?",
+    rf"{_ASKED_END}(?:start|starts|begin|begins|(?:low(?:er|est)?|smallest|least)"
+    rf"(?: end| one)?|bottom){_AGREED}": "What is the lower end of the band?",
     r"(?:how (?:wide|broad) (?:is it|does that make it)|(?:the |its )?(?:width|breadth|span))":
         "What is the width of the band?",
     r"(?:(?:where|what) is )?(?:the |its )?(?:middle|midpoint|cent(?:er|re)|mean)(?: of (?:it|"
@@ -48,6 +49,12 @@ HOW_FAR_FROM = re.compile(
 )
 _PLAIN_END = {"high": "upper", "low": "lower", "top": "upper", "bottom": "lower"}
 _ARE_WE = re.compile(r"^(?:am i|are we)\b", re.I)
+_NEARER = re.compile(
+    r"which(?: (?:of the two|one|end|bound))? is (?:the )?(?:near|clos)er(?: to (?:it|us))?[,:]? "
+    r"(?:the )?(?P<a>lower|upper)(?: one| end)? or (?:the )?(?P<b>lower|upper)(?: one| end)?"
+    r"[?.! ]*",
+    re.I,
+)
 _IN = re.compile(r"(?<=\w )(?:in|inside|within)(?: (?:it|that|there))?(?=[?.! ]*$)", re.I)
 """'Am I in?', after a band."""
 
@@ -64,6 +71,14 @@ def about_the_band(question: str, meant: Meaning | None) -> Iterator[str]:
         without_lead(question),
     )
     own = re.sub(r"\bof (?:it|them)\b", "of the band", own)
+    own = re.sub(
+        r"\b(?:that|this|its) (?=mid)middle|\b(?:that|this) (?:midpoint|cent(?:er|re))\b",
+        "the middle of the band",
+        own,
+    )
+    own = re.sub(r"\bthe new one\b", "the band", own)
+    if nearer := _NEARER.fullmatch(own):
+        yield f"Is the force nearer to the {nearer['a']} or the {nearer['b']} end of the band?"
     yield own
     yield HOW_FAR_FROM.sub("how far is the force from ", own)
     yield _ARE_WE.sub("Is the force", own)

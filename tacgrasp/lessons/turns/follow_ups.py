@@ -40,7 +40,10 @@ _BY_HOW_MUCH = re.compile(
     r"(?:much|little|high|low)))?(?: (?:is|are)(?: there)? (?:still )?(?:missing|lacking|left|"
     r"short|to spare|in hand))?|how (?:much|far|many \w+) (?:off|away|short|over|apart)?(?: "
     r"(?:are|is) (?:we|it|that|they|the two))?(?: (?:off|away|short|over|apart))?|how (?:much|far|"
-    r"large|big) is the (?:difference|gap|margin))(?: (?:is (?:it|that)|exactly|precisely|roughly|"
+    r"large|big) is the (?:difference|gap|margin)|(?:how (?:much|far|many \w+)|what) (?:lies?|is|"
+    r"are|separates?)(?: there)? (?:in )?between (?:the two|them|these(?: two)?|those(?: two)?|"
+    r"both)|by how (?:much|many \w+) do (?:we|i) differ(?: from it)?"
+    r")(?: (?:is (?:it|that)|exactly|precisely|roughly|"
     r"about))*(?: from (?:the )?(?:middle|cent(?:er|re)|midline|it))?(?P<floor>[ ,(–-]+(?:zero|0|"
     r"nothing) (?:if|when|for) .+)?[?.! )]*",
     re.I,

@@ -20,6 +20,9 @@ _LAST = re.compile(
     re.I,
 )
 
+_VERDICT = re.compile(r"\bor\b.*, yes or no[?.! ]*$", re.I)
+"""'Is it an edge or a corner, yes or no?' is no choice."""
+
 LEAD = (
     r"(?:(?:and|n|but|or|so|ok|okay|well|then|now|no|sorry|what about|how about|i meant?|"
     r"make (?:it|that))[, ]+)*"
@@ -33,7 +36,9 @@ END = (
 def without_lead(question: str) -> str:
     """A question without what leads into it, and without a last 'then' or 'please'."""
     text = question.strip()
-    bare = _LAST.sub("", _FIRST.sub("", text, count=1))
+    bare = _FIRST.sub("", text, count=1)
+    if _VERDICT.search(bare) is None:
+        bare = _LAST.sub("", bare)
     return bare or text
 
 

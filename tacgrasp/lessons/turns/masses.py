@@ -35,9 +35,8 @@ _NEEDED = re.compile(
     r"that)? (?:i|we|you|it))\b)(?!.*\b(?:gravity|pull|pulls|weigh|weighs|push|apply|applying|"
     r"pressing|is it|is that|are we|have|limit|heaviest|grams?|still|more|less|"
     r"now)\b)(?=.*\b(?:needs?|needed|wants?|requires?|required|minimum|min|least|enough|takes?|"
-    r"surely|"
-    r"sure|safely|do|holds?)\b)(?:(?:and|so|but|then)[, ]+)*(?:(?:with )?how (?:much|many|strong|"
-    r"hard)|what|which|(?:the )?(?:minimum|least|needed|required|grip|force))\b.*",
+    r"surely|sure|safely|do|holds?)\b)(?:(?:and|so|but|then)[, ]+)*(?:(?:with )?how (?:much|many|"
+    r"strong|hard)|what|which|(?:the )?(?:minimum|least|needed|required|grip|force))\b.*",
     re.I,
 )
 _ANOTHER_THING = re.compile(
@@ -51,8 +50,9 @@ _HEAVIER = re.compile(
     r"(?:(?:what )?if )?(?:it|that|this|the \w+) (?:were|was|is|weighed|weighs|had)(?: really)? "
     r"(?P<times>twice|half|double|three times|ten times|\d+(?:\.\d+)? times)"
     r"(?: (?:as (?:heavy|much)|the (?:mass|weight)|that))*|"
-    r"(?:for )?one (?P<one>twice|half) as heavy|"
-    r"(?:for )?(?P<that>twice|double|half|three times) (?:that|the|this) (?:mass|weight)",
+    r"(?:(?:would|will|does) (?:it|that|this|the grip) (?:still )?(?:do|hold|suffice|work|be "
+    r"enough) )?(?:for |with )?(?:one (?P<one>twice|half) as heavy|"
+    r"(?P<that>twice|double|half|three times) (?:that|the|this) (?:mass|weight))",
     re.I,
 )
 _SEVERAL = re.compile(

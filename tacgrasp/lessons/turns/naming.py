@@ -50,7 +50,9 @@ _AM_I_RIGHT = re.compile(
 _WHICH_THEN = re.compile(
     r"(?:(?:and|so|but|then|ok|no)[, ]+)*(?:what (?:would|do|will) you (?:call|name) it|"
     r"how would you (?:describe|call|class|name) it|(?:what|which(?: one)?|how) is it|"
-    r"what(?: else)?|what sort|which(?: one)?)(?: then| instead| really| exactly)*"
+    r"what(?: else)?|what sort|which(?: one)?|name it(?: for me)?|which part(?: of (?:the pad|"
+    r"it))? is it (?:on|in|at)|which (?:shape|texture|part|place) then)"
+    r"(?: then| instead| really| exactly| please)*"
     r"(?P<word>[, ]+in (?:one|a|a single) word)?[?.! ]*",
     re.I,
 )
@@ -97,7 +99,8 @@ def of_that_quantity(question: str, meant: Meaning | None) -> str:
 
 def figure_of(question: str, meant: Meaning | None) -> str:
     """The number behind a yes or a no: 'what is the real figure?'."""
-    if _FIGURE.fullmatch(question) is None or not isinstance(meant, Check | Calculated):
+    is_asked = _FIGURE.fullmatch(without_lead(question)) or _FIGURE.fullmatch(question)
+    if not is_asked or not isinstance(meant, Check | Calculated):
         return ""
     names = names_of(meant)
     figures = {"depth_mm": "depth", "depth": "depth", "force_n": "force", "area_percent": "area",
@@ -178,9 +181,11 @@ def of_named_class(question: str, meant: Meaning | None) -> str:
     return f"Is the {dimension} {uncapital(words)}?" if is_named else ""
 
 
-def named_alone(question: str) -> str:
-    """A follow-up that is but the name of something felt or agreed."""
+def named_alone(question: str, before: str) -> str:
+    """A follow-up that is but the name of something felt or agreed, in a word if that was one."""
     if (asked := _NAMED.fullmatch(question)) is None:
         return ""
     name = asked["name"].lower()
+    if re.search(r"\bsame\b", question, re.I) and before.endswith("in one word?"):
+        return f"What is the {name} in one word?"
     return f"What is the {_CALLS.get(name, name)}{(asked['unit'] or '').lstrip(',')}?"

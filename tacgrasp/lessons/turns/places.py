@@ -21,7 +21,7 @@ from tacgrasp.lessons.dialogue.meaning import (
     names_of,
     truth_of,
 )
-from tacgrasp.lessons.turns.leads import END, LEAD, without_lead
+from tacgrasp.lessons.turns.leads import END, LEAD, uncapital, without_lead
 
 _SIDES = ("left", "right", "top", "bottom", "upper", "lower", "fingertip", "palm")
 _SIDE = re.compile(rf"\b(?:{'|'.join(_SIDES)})\b", re.I)
@@ -45,6 +45,10 @@ _HOW_MANY_SIDES = re.compile(
     rf"{LEAD}(?:over |on |at |across )?(?:how many|(?:the )?(?:total )?number of)"
     rf"(?: of the)?(?: (?:four|4|cut))?(?: of)? (?:sides|edges|rims|borders)(?: is (?:it|that))?"
     rf"(?:[, ]+(?:altogether|in all|in total|overall))?{END}",
+    re.I,
+)
+_ON_SIDES = re.compile(
+    r"(?:on|over|at|off|across) (?:more than one|several|two|both|opposite|at least|only|just) .+",
     re.I,
 )
 _ALONG = {
@@ -102,6 +106,8 @@ def about_place(question: str, meant: Meaning | None) -> Iterator[str]:
             yield f"Is it cut on the {_OPPOSITE[told]} side?"
     if is_cut and _WHICH_EDGE.fullmatch(question):
         yield "Which edge cuts it?"
+    if is_cut and _ON_SIDES.match(without_lead(question)):
+        yield f"Is it cut {uncapital(without_lead(question))}"
     if is_cut and _HOW_MANY_SIDES.fullmatch(question):
         yield "How many sides of the pad cut it?"
     if found := _BY_HOW_MUCH_TO.fullmatch(question):

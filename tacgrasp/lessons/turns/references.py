@@ -77,7 +77,13 @@ _HARDER = re.compile(
 _IN_UNIT = re.compile(r",? in (?P<unit>[a-zµ]+2?)$")
 _HOW_FAR = re.compile(r"^how (?:far|much) (?P<way>from|off|above|below) (?:it|that)$")
 _DISTANCE = re.compile(
-    r"(?:(?:what is|the|absolute|its) )*(?:distance|difference|gap|margin) (?:to|from) (?P<what>.+)"
+    r"(?:(?:what is|what['’]s|the|absolute|its) )*(?:distance|difference|gap|margin) (?:to|from) "
+    r"(?P<what>.+?)(?:,? in [a-zµ]+2?)?"
+)
+_FELT_FORCE = re.compile(
+    r"(?:the |our |my )?(?:(?:present|current|actual|felt|measured|applied) )?(?:force|grip|"
+    r"squeeze)|"
+    r"what (?:we|i|you) (?:have|apply|feel|measure)(?: now)?"
 )
 _COMPARES = re.compile(
     r"(?:more|less|over|under|above|below|at least|at most|exactly|about|deeper|shallower|higher|"
@@ -86,7 +92,11 @@ _COMPARES = re.compile(
 )
 _HAVE_IT = re.compile(
     r"(?:do|are|have) (?:i|we|you)(?: (?:have|apply|press with|reach|reached|got|make|there|at))*"
-    r"(?: (?:that|it|this|as)(?: much| many)?)?(?: force)?(?: (?:already|yet|now|there))*|"
+    r"(?: (?:that|it|this|as)(?: much| many)?)?(?: (?:force|grip|newtons))?"
+    r"(?: (?:already|yet|now|there))*|"
+    r"(?:are|is) (?:i|we|you|it|the (?:gripper|hand|robot)) (?:grip|press|squeez|hold|push|clamp)"
+    r"(?:p?ing)(?: it)? (?:that|this|so) (?:hard|firmly|strongly|much|tight|tightly)"
+    r"(?: (?:already|yet|now))*|"
     r"(?:is|would) (?:the|our|my) (?:current |present )?(?:force|grip|squeeze) "
     r"(?:be )?(?:enough|sufficient|do|suffice)(?: for (?:that|it|this))?|"
     r"(?:does|is) (?:that|it|the grip|the force) (?:suffice|enough)"
@@ -94,6 +104,11 @@ _HAVE_IT = re.compile(
 """'Do we have that much already?', after a force that is needed or agreed."""
 
 
+_OF_PAD = re.compile(
+    r"%|\bpercent\b|\bof (?:the|our|your|its) (?:whole |entire )?(?:pad|gel|sensor|fingertip|"
+    r"surface)\b"
+)
+"""'Is that over a quarter of the pad?', of an area in mm²."""
 _OF_GRIP = re.compile(r"\b(?:it|this)\b.*\b(?:hold|lift|carry|slip|drop)\b")
 """'Is it enough to hold it?', which is about the grip and not about a number."""
 
@@ -117,13 +132,21 @@ def of_number(question: str, about: Meaning | None, earlier: Meaning | None) -> 
     if term.dimension == "fraction":
         core = _PARTS.sub(lambda part: f"{_SHARES[part[0]]} %", core)
     core = _HOW_FAR.sub(r"how far is the force \g<way> it", core)
-    if distance := _DISTANCE.fullmatch(core):
+    distance = _DISTANCE.fullmatch(core)
+    if distance and is_bound and _FELT_FORCE.fullmatch(distance["what"]):
+        return Calculated(truth=f"abs(force_n - {term.factor})", unit=unit)
+    if distance:
         core = f"how far is it from {distance['what']}"
     if _COMPARES.match(core):
         core = f"is it {'' if not core.startswith('than') else 'more '}{core}"
     if is_bound and _HAVE_IT.fullmatch(core):
         return Calculated(truth=f"force_n >= {term.factor}", unit=None)
     core = _HARDER.sub(r"is the force \g<way> than", core)
+    if term.dimension == "area" and _OF_PAD.search(core):
+        of_pad = f"100 * {term.factor} / (pad_width_mm * pad_height_mm)"
+        if term.expression == "area_mm2":
+            of_pad = "area_percent"
+        term, unit = Term(expression=of_pad, dimension="fraction", words="it", is_sum=True), "%"
     if in_unit := _IN_UNIT.search(core):
         unit = unit_symbol(in_unit["unit"]) or unit
         core = core[: in_unit.start()] if _MULTIPLE.fullmatch(core[: in_unit.start()]) else core

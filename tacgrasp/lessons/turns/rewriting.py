@@ -113,7 +113,7 @@ def rewritten(question: str, before: str, meant: Meaning | None, noun: str) -> I
         with_another_axis(question, before),
         of_named_class(question, meant),
         of_a_mass(question, before, meant),
-        named_alone(question),
+        named_alone(question, before),
         moved_otherwise(question, before),
         with_noun(question, noun),
         HOW_FAR_FROM.sub("how far is the force from ", with_noun(question, noun)),

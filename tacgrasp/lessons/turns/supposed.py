@@ -34,6 +34,11 @@ _SUPPOSED = (
         re.I,
     ),
     re.compile(r"(?P<asked>.+?),? (?P<if>if .+?)[?.! ]*", re.I),
+    re.compile(
+        r"(?P<asked>.+?) (?P<if>with \d+(?:\.\d+)? ?(?:N|newtons?|mN|millinewtons?) (?:more|less|"
+        r"extra|on top))[?.! ]*",
+        re.I,
+    ),
 )
 """A question with a supposition, before or behind what is asked."""
 _ANOTHER_IF = re.compile(rf"{LEAD}(?P<if>if [^,]+?)[?.! ]*", re.I)

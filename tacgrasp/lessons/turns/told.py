@@ -119,7 +119,9 @@ def told_in(text: str, about: Meaning | None = None) -> tuple[Told, str] | None:
     if mass_g is None and limit_n is None and band_n is None:
         return None
     told = Told(mass_g=mass_g, band_n=band_n, limit_n=limit_n, is_supposed=bool(found["if"]))
-    return told, found["asked"] or ""
+    asked = found["asked"] or ""
+    is_asked = "?" in asked or _ASKS.match(asked)  # 'the limit is 3 N, it is glass' asks nothing
+    return told, asked if is_asked else ""
 
 
 _CORRECTED_MASS = re.compile(

@@ -107,8 +107,8 @@ _ANSWERED = re.compile(
 )
 _TAKING_G = re.compile(
     r" (?:use|take|taking|with|using) (?:g )?(?:as |of )?#\d+(?: (?:m|"
-    r"n) (?:per )?\S+(?: #\d+)?)?(?: (?:for|"
-    r"as) g)?$"
+    r"n) (?:per )?(?!(?:less|more|extra|harder|softer|off|fewer|on|added)\b)\S+(?: #\d+)?)?"
+    r"(?: (?:for|as) g)?$"
 )
 _ONE_MORE = re.compile(
     rf"\b(?:one (?:more|extra|additional|further)|(?:another|an extra|a further)(?: more)?) "

@@ -165,8 +165,8 @@ _EASED = re.compile(
     r"(?: off| of (?:force|grip|squeeze))?"
 )
 _ADDED = re.compile(
-    rf"(?:{_WHO} )?(?:(?:add(?:ed|ing)?|put|putting|apply|applied|applying|pile|piled|tack|tacked|"
-    r"throw|threw|stack|stacked|gain|gained|give it|gave it|increase(?:d)?|raise(?:d)?|"
+    rf"(?:{_WHO} )?(?:(?:add(?:s|ed|ing)?|put|putting|apply|applied|applying|pile|piled|tack|"
+    r"tacked|throw|threw|stack|stacked|gain|gained|give it|gave it|increase(?:d)?|raise(?:d)?|"
     r"tighten(?:ed)?|"
     r"squeeze(?:d)?|press(?:ed)?|(?:go|goes|went|come|step|turn)(?:ed)? up|climb(?:ed)?|rise)"
     r"(?: (?:it|on|in|up|by|with|another|an?|extra|a further|the (?:force|grip|squeeze)))*) "
@@ -193,6 +193,8 @@ _SANK = re.compile(
 _WEIGHED = re.compile(
     r"(?:it|the \w+) (?:weigh(?:s|ed)?|were|was|had|has|got) (?P<b>#\d+ \w+) "
     r"(?:(?P<up>more|heavier|extra)|(?:less|lighter))"
+    r"(?: than (?:(?:you|we|i) (?:were|was|are|am) told|told|now|it is(?: now)?|stated|given|"
+    r"(?:you|we|i) think))?"
 )
 _FROM_HERE = re.compile(
     r" from (?:here|where (?:it|we) (?:is|are)(?: now)?|(?:the|its) (?:present|current) "

@@ -146,7 +146,10 @@ _NAMED: Mapping[str, tuple[str, str]] = {
     r"(?:(?:you|us|me|it|the gripper) )?(?:(?:to )?(?:apply|use|exert|press with|put on|"
     r"squeeze with))?"
     r"(?: at (?:the )?(?:very )?most)?": ("limit_n", "force"),
-    r"(?:needed|required|necessary) force|force (?:that is )?(?:needed|required)(?: to hold it)?": (
+    r"(?:needed|required|necessary) force|force (?:that is )?(?:needed|required)(?: to hold "
+    r"it)?|"
+    r"(?:what|(?:the )?(?:force|grip)(?: that)?) (?:it|the (?:object|thing)|(?:its|the object's|"
+    r"the (?:given|told)) mass) needs|what is (?:needed|required)(?: (?:for|to hold) it)?": (
         "gram_n * mass_g", "force",
     ),
 }  # fmt: skip

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from dataclasses import replace
 
 from tacgrasp.lessons.dialogue.calculations.amounts import amount_of, calculated_amount
 from tacgrasp.lessons.dialogue.calculations.asked import AskedWords
@@ -135,8 +136,16 @@ _OF_FORCE = re.compile(r"\b(?:force|grip|squeeze|hard|pressing|squeezing|grippin
 _OF_DEPTH = re.compile(r"\b(?:depth|deep|indentation|dent)\b")
 
 
+_SAFE = re.compile(
+    r"(?:is|would|will) (?:it|that|this|(?:the|a) (?:lift|grip))(?: (?:still|then|now))? (?:be )?"
+    r"(?:safe|ok|okay|fine)(?: to (?:lift|pick up|raise|hoist)(?: it)?)?\b"
+)
+"""'Would it be safe to lift?', which the band tells."""
+
+
 def supposed(asked: AskedWords) -> Calculated | None:
     """What a question asks about a changed quantity; None where it changes none."""
+    asked = replace(asked, words=_SAFE.sub("is the force in the band", asked.words))
     if kept := _kept(asked):
         return kept
     for change, rest in _clauses(asked.words):

@@ -212,6 +212,13 @@ _OF_ANOTHER = re.compile(
 """What has a number, but none of touch: 'how much sugar has it got per 100 g?'."""
 
 
+_TRAIT_ALONE = re.compile(
+    r"(?:(?:and|but|so) )*(?:what|which|the|what about the|how about the) (?P<what>colou?r|smell|"
+    r"taste|temperature|price|brand|material|owner|age|sound|maker|origin)(?: please)?"
+)
+"""'And what colour?'"""
+
+
 def unfelt_query(words: str) -> str:
     """The query of a question in plain words that touch can't answer; '' of any other question."""
     words = _GRIPPED.sub("", words)
@@ -225,6 +232,8 @@ def unfelt_query(words: str) -> str:
         return ""
     if _TWO_KINDS.match(words):
         return "unknown name."
+    if trait := _TRAIT_ALONE.fullmatch(words):
+        words = f"what is its {trait['what']}"
     if not _THING.search(words) or not _ASKING.match(words):
         return ""
     for subject, pattern in _UNKNOWN.items():

@@ -85,7 +85,8 @@ _STEPS: tuple[tuple[re.Pattern[str], tuple[str, ...]], ...] = tuple(
 _ADVICE = re.compile(
     r"\b(?:advi[sc]e[ds]?|advising|recommend\w*|suggest\w*|proposed?|your (?:tip|counsel|verdict)|"
     r"next (?:step|move|action|command)|would(?:n['’]?t)? you (?=move|shift|reset|start|let)|want "
-    r"(?:me|us|it|the \w+) (?:to )?|tell(?:ing)? me to|have me(?: do)?|(?:do i )?take it(?: "
+    r"(?:me|us|it|the \w+) (?:to )?|tell(?:ing)? me to|have me(?: do)?|what you(?:['’]d| would) "
+    r"(?:do|have me do|pick|choose|try)(?: now| next)?|(?:do i )?take it(?: "
     r"that)? you want|(?:system|policy|robot|controller)(?: now)? (?:call|calls|ask|asks|want|"
     r"wants)(?: for)?|policy output|call for)\b"
 )
@@ -227,12 +228,15 @@ def step_asked(question: str) -> Calculated | None:
         return None
     condition = step_condition(_SHOULD.sub("", words))
     is_step = "reset" in condition or ("move_" in condition and bool(_MOVES.search(words)))
+    is_step = is_step or ("force" in condition and bool(_NEXT.search(words)))
     return Calculated(truth=condition, unit=None) if is_step else None
 
 
 _EQUALS = re.compile(r"^(?:the )?(?:next (?:step|move|action)|policy output) (?:=|is|:) ?")
 _STATED = re.compile(r"^(?:so )?(?P<what>(?:your|the) (?:advice|recommendation|tip) is) ")
 _MOVES = re.compile(rf"\b{_MOVE}\b")
+_NEXT = re.compile(r"\b(?:next|as a next step|first)$")
+"""'Should I squeeze harder next?' asks for the advice, without 'next' for the band."""
 _SHOULD = re.compile(
     r"(?:and |so |then )*(?:(?:should|shall|must|do|does|need) (?:i|we|it|the "
     r"(?:gripper|robot|hand|finger))(?: (?:have|need|ought) to)?|do you (?:have|need) to) (?:be )?"

@@ -30,6 +30,24 @@ _ASKS_YES = re.compile(
     rf"(?:(?:and|so|please) )?(?:{AUXILIARY}|anything|confirm|verify|check|true or false)\b"
 )
 _NUMBER = re.compile(r"\d")
+_VERDICT = re.compile(
+    r"^yes or no\b|\b(?:yes or no|either one|true or false)$|"
+    r"^(?:(?:and|so|then|now) )*(?:could|might|can) (?:it|this|that|(?:the|what) [a-z ]+?)"
+    r"(?: (?:possibly|maybe|perhaps|well|conceivably))? be\b"
+)
+"""What wants yes or no of classes that 'or' joins, which are a choice without it."""
+
+
+def verdict_of(question: str) -> Calculated | None:
+    """The same of 'is it an edge or a corner, yes or no?' and 'could it be an edge or a corner?'.
+
+    None of any other question.
+    """
+    words = " ".join(re.findall(r"[a-z]+(?:-[a-z]+)?|\d+", question.lower()))
+    if _VERDICT.search(words) is None:
+        return None
+    bare = re.sub(r"^yes or no | (?:yes or no|either one|true or false)$", "", words)
+    return member_of(f"is it one of {bare}") if _ASKS_YES.match(bare) else None
 
 
 def member_of(question: str) -> Calculated | None:

@@ -43,7 +43,7 @@ _OF_PLACE = (
     r"vertically|sideways|split|cut|divided?|dividing|into|three|3|equal|one|ones|or|and|looking|"
     r"only|just|would|you|call|say|if|i|we|left|right|top|upper|bottom|lower|mid|central|hand|"
     r"field|fields|region|zone|located|from|to|now|currently|lengthwise|horizontal|vertical|with|"
-    r"are|being|where|somewhere|please)"
+    r"are|being|where|somewhere|please|sitting|resting|lying|standing|fingertip|sensing|area)"
 )
 _THIRD = re.compile(
     rf"(?:(?:in|within|into|on) )?(?:the )?(?P<word>left|top|upper|bottom|lower|{_MIDDLE}|right)"
@@ -76,8 +76,10 @@ _RUNS = (
     r"truncat\w+)\b"
 )
 _HOW_MANY = re.compile(
-    rf"\bhow many (?:of (?:the |its |our )?)?(?:(?:four|4|pad|pad's|gel|sensor) )*{_SIDES}\b"
+    rf"\bhow many (?:of (?:the |its |our )?)?(?:(?:four|4|two|2|pad|pad's|gel|sensor|(?P<axis>"
+    rf"lateral|side|horizontal|vertical)) )*{_SIDES}\b"
 )
+_OF_AXIS = {"vertical": ("top", "bottom")}
 _FOUR = ("left", "right", "top", "bottom")
 _NUM_CUT = " + ".join(f"cut_{side}" for side in _FOUR)
 _COUNTS = {"one": 1, "a single": 1, "two": 2, "three": 3}
@@ -85,7 +87,9 @@ _NUMBER_OF = re.compile(rf"\bnumber of (?:(?:the|pad|cut|its) )*{_SIDES}\b")
 _EXACTLY = re.compile(
     rf"\b(?:exactly|just|only) (?:on )?(?P<count>one|a single|two|three) {_SIDES}\b"
 )
-_OR_MORE = re.compile(rf"\b(?P<count>one|two|three) or more {_SIDES}\b")
+_OR_MORE = re.compile(
+    rf"\b(?:at least (?P<least>one|two|three)|(?P<count>one|two|three) or more) {_SIDES}\b"
+)
 _OPPOSITE = re.compile(rf"\b(?:two|both|any) opposite {_SIDES}\b")
 _BOTH_OR_NEITHER = re.compile(
     r"\b(?P<a>left|right|top|bottom)\b(?: \w+)?,? (?:or )?(?:(?:off|over|at|on|past) )?(?:the )?"
@@ -165,13 +169,15 @@ def _sides(words: str) -> str:
     """How many sides of the pad cut it, whether opposite ones do, and which of two."""
     if not re.search(_RUNS, words):
         return ""
-    if _HOW_MANY.search(words) or _NUMBER_OF.search(words):
+    if (counted := _HOW_MANY.search(words)) or _NUMBER_OF.search(words):
         named = [side for side in _FOUR if re.search(rf"\b{side}\b", words)]
+        if not named and counted and counted["axis"]:
+            named = list(_OF_AXIS.get(counted["axis"], ("left", "right")))
         return " + ".join(f"cut_{side}" for side in named or _FOUR)
     if re.search(rf"\bmore than one (?:{_SIDES})\b", words):
         return f"{_NUM_CUT} > 1"
     if several := _OR_MORE.search(words):
-        return f"{_NUM_CUT} >= {_COUNTS[several['count']]}"
+        return f"{_NUM_CUT} >= {_COUNTS[several['count'] or several['least']]}"
     if (exactly := _EXACTLY.search(words)) and not re.search(r"\b(?:newton|mm|percent)", words):
         return f"{_NUM_CUT} == {_COUNTS[exactly['count']]}"
     if _OPPOSITE.search(words):

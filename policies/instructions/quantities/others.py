@@ -1,0 +1,55 @@
+"""Forces that a text names without asking for them: another object's, and those that are allowed.
+
+'Grasp the strawberry. The egg needs 3 N.' asks for no 3 N, and 'you may go over 2 N' for no more than
+usual. Not here: forces of the past and what they led to (``outcomes``).
+"""
+
+from __future__ import annotations
+
+import re
+
+from policies.instructions.english import words
+from policies.instructions.quantities.force import MARK
+from policies.instructions.quantities.force_units import LOOSE, NUMBER, UNIT
+
+_ONE = rf"{NUMBER}\s*-?\s*(?:{UNIT}|{LOOSE})\b"
+_OBJECT = rf"(?:{words.any_of('fruit')}|plums?|apples?|kiwis?|figs?)\b"
+_TAKES = (
+    r"(?:needs?|needed|takes?|took|wants?|wanted|requires?|required|gets?|got|calls? for|likes?|"
+    r"(?:is|was|were|are) (?:held|gripped|picked|done|fine|happy|good|set|run) (?:up )?(?:with|at))"
+)
+_OF_OBJECT = re.compile(
+    rf"\b(?P<object>{_OBJECT})(?: (?:here|there|before|yesterday|earlier|over there))?,? "
+    rf"(?:(?:which|that|it|usually|always|normally|only|really|just) )*{_TAKES} "
+    rf"(?:(?:about|around|roughly|some|only|just|at least|at most|up to|a|an) )*(?P<force>{_ONE}"
+    rf"(?: ?(?:to|-|–|and) ?{_ONE})?)"
+)
+"""'The egg which needs 4 N'."""
+_ALLOWED = re.compile(
+    r"\b(?:you (?:may|can|could|might|are (?:allowed|free|welcome|permitted) to)|feel free to|"
+    r"(?:it is|that is|it would be|i am) (?:perfectly |quite |absolutely )?(?:fine|ok(?:ay)?|al(?:l )?right|no problem|acceptable|happy)(?: with me| by me)?"
+    r" (?:if (?:it|you|the (?:force|grip)) |to |for you to )|(?:i|we) do not (?:mind|care) if (?:it|you|the (?:force|grip)) )"
+    rf" ?(?:(?!not\b|never\b|only\b|no\b)\w+ ){{0,4}}?(?:over|above|beyond|past|more than|exceed(?:s|ing)?|higher than) {_ONE}"
+    r"(?:,? (?:if|when|where|as) (?:\w+ )?(?:you )?(?:need|needed|necessary|must|have|like|want|required)(?: (?:to|be))?\b)?"
+)
+"""'You may go over 2 N if you need to': what is allowed is not asked for."""
+
+
+def without_other_forces(text: str) -> str:
+    """A plain text with ``MARK`` for the forces of other objects, and 'the usual' for what is allowed.
+
+    Args:
+        text: Plain text, its numbers in digits.
+    """
+    text = _ALLOWED.sub("the usual grip will do", text)
+    for match in reversed(list(_OF_OBJECT.finditer(text))):
+        rest = f"{text[: match.start()]} {text[match.end() :]}"
+        others = {_kind(each[0]) for each in re.finditer(_OBJECT, rest)}
+        if others and _kind(match["object"]) not in others:
+            text = f"{text[: match.start('force')]}{MARK}{text[match.end('force') :]}"
+    return text
+
+
+def _kind(name: str) -> str:
+    """A fruit by one name: 'straw berries' and 'berry' are strawberries here."""
+    return "berry" if "berr" in name else name.rstrip("s")

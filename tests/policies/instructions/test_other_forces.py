@@ -1,0 +1,97 @@
+"""Forces that are named without being asked for, and those that are forbidden from a bound on."""
+
+import pytest
+
+from policies.contract import read_contract
+from policies.instructions.quantities.others import without_other_forces
+from tests.fakes.contracts import terms
+from tests.policies.instructions.test_quantities import forces
+
+USUAL = read_contract("hold it", terms(), {})
+
+
+def band_of(text):
+    found = read_contract(text, terms(), {})
+    assert not found.refused
+    return found.force_n, found.limit_n
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "do not use 2 N or more",
+        "never use 2 N or more",
+        "don't apply 2 newtons or above",
+        "avoid 2 N and above",
+        "no force of 2 N or more, please",
+        "2 N or more is forbidden",
+        "2 N and above is not allowed",
+        "You must not reach 2 N or higher",
+        "hold it, but without 2 N or more",
+    ],
+)
+def test_what_is_forbidden_from_a_force_on_ends_below_it(text):
+    force_n, limit_n = band_of(text)
+    assert force_n.high < 2.0
+    assert limit_n < 2.0
+
+
+@pytest.mark.parametrize("text", ["not 1 N or less", "never go to 1 N or below"])
+def test_what_is_forbidden_up_to_a_force_begins_above_it(text):
+    assert band_of(text)[0].low >= 1.0
+
+
+@pytest.mark.parametrize("text", ["hold it with 2 N or more", "do not hesitate to use 2 N or more"])
+def test_what_is_asked_from_a_force_on_begins_there(text):
+    assert band_of(text)[0].low >= 2.0
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "You may go over 2 N if you need to",
+        "feel free to exceed 2 N",
+        "it is fine if it goes above 2 N",
+        "you can go beyond 2 N",
+        "you are allowed to use more than 1 N",
+    ],
+)
+def test_what_is_allowed_is_not_asked_for(text):
+    assert band_of(text) == (USUAL.force_n, USUAL.limit_n)
+
+
+def test_what_is_denied_to_a_person_bounds():
+    assert band_of("you may not go over 2 N")[1] < 2.0
+    assert band_of("you may go over 2 N but never above 3 N")[1] < 3.0
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["Grasp the strawberry. The egg needs 3 N.", "pick the berry, not the egg which needs 4 N"],
+)
+def test_the_force_of_another_object_is_not_this_ones(text):
+    assert band_of(text) == (USUAL.force_n, USUAL.limit_n)
+
+
+@pytest.mark.parametrize(
+    "text", ["the egg needs 3 N", "pick up the berry, the strawberry needs 3 N"]
+)
+def test_the_force_of_the_only_object_is_meant(text):
+    assert without_other_forces(text) == text
+    assert forces(text)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "hold it with three times its weight",
+        "use twice its weight",
+        "squeeze with 2x the berry's weight",
+    ],
+)
+def test_a_multiple_of_a_weight_is_refused(text):
+    assert "multiple of a weight" in read_contract(text, terms(), {}).refused
+
+
+def test_whether_a_force_would_do_is_a_question():
+    assert "no request" in read_contract("Would 3 N be ok?", terms(), {}).refused
