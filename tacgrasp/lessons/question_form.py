@@ -206,10 +206,35 @@ def alone_asked(question: str) -> str:
 
 _ASIDE = re.compile(r"\s*\((?!s\))[^()\d]*\)|,? if (?:any|at all)(?=[?.! ]*$)", re.I)
 _REPLY_FIRST = re.compile(
-    r"^(?:yes or no|one word|in a word|short answer|quick (?:one|question))"
+    r"^(?:yes or no|short answer|quick (?:one|question))"
     r"(?:,? (?:nothing else|no more|only|please|nothing more|just that))*[:,.–—-]+ +",
     re.I,
 )
+
+
+_NOT_THIS = re.compile(
+    r"^(?:please )?(?:(?:do not|don['’]?t|never|no need to) (?:(?:just|only) )?(?:tell|give|say|"
+    r"show|report|read)(?: me| us)?(?: about)?|(?:i|we) (?:do not|don['’]?t) (?:want|need|care "
+    r"(?:about|for)|mean|ask for)(?: to know)?|not|forget(?: about)?|never mind|leave out) (?:the "
+    r"|its |your )?[a-z]+(?: (?:please|now|at all))*(?:[,;.:–—-]+| -+) +"
+    r"(?:but |just |only |instead |rather )?(?P<rest>\S.*)",
+    re.I,
+)
+_WISHED = re.compile(
+    r"^(?:(?:i|we) (?:want|need|meant?|asked for|would like)(?: to know)?|"
+    r"(?:tell|give|show) (?:me|us)|say|report) (?=(?:the |its )?[a-z]+[.! ]*$)",
+    re.I,
+)
+"""'I want the position', 'tell me the force'."""
+
+
+def wanted_instead(question: str) -> str:
+    """What is asked for in place of something: 'don't tell me the depth, tell me the force'.
+
+    '' of other questions.
+    """
+    found = _NOT_THIS.match(question.strip())
+    return _WISHED.sub("what is ", found["rest"]) if found else ""
 
 
 def without_aside(question: str) -> str:

@@ -23,6 +23,7 @@ from torch import Tensor
 
 from cltp.llm.constrained.grammar import Grammar
 from cltp.llm.generation import Reply
+from tacgrasp.lessons.dialogue.calculations.borders import farther_border
 from tacgrasp.lessons.dialogue.calculations.calculated import calculated
 from tacgrasp.lessons.dialogue.calculations.suppositions import begins_supposed
 from tacgrasp.lessons.dialogue.choices.choosing import chosen
@@ -60,6 +61,7 @@ from tacgrasp.lessons.dialogue.rules.advised import advised, step_asked
 from tacgrasp.lessons.dialogue.rules.friction import frictional
 from tacgrasp.lessons.dialogue.rules.members import member_of, verdict_of
 from tacgrasp.lessons.dialogue.rules.regions import of_region
+from tacgrasp.lessons.dialogue.rules.reported import of_history, reported
 from tacgrasp.lessons.dialogue.rules.ruled import ruled_whole
 from tacgrasp.lessons.dialogue.rules.unread import is_beyond
 from tacgrasp.lessons.dialogue.sided_questions import to_named_side
@@ -85,6 +87,7 @@ from tacgrasp.lessons.question_form import (
     in_usual_order,
     is_one_clause,
     is_unlikely,
+    wanted_instead,
     with_number_before,
     without_aside,
     without_topic,
@@ -156,6 +159,9 @@ def understood_by_grammar(question: str, before: str = "") -> ReadQuestion | Non
     """
     if stated := denied_statement(question):
         return _denied(understood_by_grammar(f"Is it true that {stated}", before), question)
+    wanted = wanted_instead(question)
+    if wanted and (instead := understood_by_grammar(wanted, before)):
+        return instead
     alone = without_remark(question)
     if alone and (in_words_alone := understood_by_grammar(alone, before)):
         return _in_class_words(in_words_alone)
@@ -165,12 +171,15 @@ def understood_by_grammar(question: str, before: str = "") -> ReadQuestion | Non
     # 'isn't more than 1 N felt' would be read as 'is not more than 1 N felt'
     if is_denied and (affirmed := understood_by_grammar(plain, before)):
         return affirmed
-    meaning = judged_as_one(question) if is_doubted_statement(question) else None
+    meaning = None if before else of_history(question) or reported(question)
+    if meaning is None and is_doubted_statement(question):
+        meaning = judged_as_one(question)
     meaning = meaning or with_adjective(question) or either_of(question) or step_asked(question)
     meaning = meaning or verdict_of(question)
     meaning = meaning or understand(question, before=before)
     if not before and isinstance(meaning, Unknowable):
-        meaning = ruled_whole(plain) or meaning  # 'is it a square' is no question for a name
+        # 'is it a square' is no question for a name, 'is it in the corner' for its surroundings
+        meaning = ruled_whole(plain) or of_region(question) or meaning
     if not before and meaning is None and _EITHER.search(question):
         meaning = ruled_whole(question)  # plainer text has no 'either'
     in_usual = with_counted_parts(question, as_usual=True)
@@ -202,7 +211,8 @@ def understood_by_grammar(question: str, before: str = "") -> ReadQuestion | Non
 def _composed(question: str) -> Meaning | None:
     """What a question means by the first reader that accounts for all of it."""
     return (
-        frictional(question)
+        farther_border(question)
+        or frictional(question)
         or advised(question)
         or of_region(question)
         or member_of(question)

@@ -38,6 +38,8 @@ _OF_QUANTITY = re.compile(
     rf"{_LEAD}(?:(?:what(?: is|'s)|tell me|give me|how (?:large|big|high) is) )?(?:the |your )?"
     rf"{_SPREAD} (?:of|on|in|for) {_QUANTITY}{_END}|"
     rf"{_LEAD}how {_SURE} (?:are you (?:of|about|in) |is ){_QUANTITY.replace('<of>', '<b>')}{_END}|"
+    rf"{_LEAD}(?:(?:can|should|shall|may) (?:i|we|you) (?:trust|rely on|believe) |is (?=.*{_SURE}))"
+    rf"{_QUANTITY.replace('<of>', '<e>')}(?: {_SURE}(?: enough)?)?{_END}|"
     rf"{_LEAD}(?:in )?what range (?:could|can|may|might|does) {_QUANTITY.replace('<of>', '<c>')} "
     rf"(?:have|be(?: in)?|lie(?: in)?|fall(?: in)?){_END}|"
     rf"{_LEAD}(?:between )?(?:which|what) (?:values|bounds|limits|ends) (?:does|could|can|may) "
@@ -45,7 +47,9 @@ _OF_QUANTITY = re.compile(
     re.I,
 )
 _OF_LAST = re.compile(
-    rf"{_LEAD}(?:(?:are )?you (?:really |quite |absolutely |completely )?(?:sure|certain)(?: "
+    rf"{_LEAD}(?:(?:can|should|shall|may) (?:i|we) (?:trust|rely on|believe) (?:{_IT}|"
+    rf"(?:this|that|the) (?:number|figure|reading|value))|"
+    r"(?:are )?you (?:really |quite |absolutely |completely )?(?:sure|certain)(?: "
     rf"(?:of|about) {_IT})?|(?:really |quite )?(?:sure|certain)|really|how sure|is {_IT} {_SURE}|"
     rf"how {_SURE} (?:are you|is {_IT}|are (?:they|those|those numbers))(?: (?:of|about|in) "
     rf"{_IT})?|(?:what is|what's) (?:the |your )?{_SPREAD}(?: of {_IT})?|how (?:much )?(?:percent "

@@ -144,6 +144,38 @@ def in_a_word(question: str, meant: Meaning | None) -> str:
     return f"What is the {name} in one word?" if is_word and name in ("depth", "area") else ""
 
 
+_FREE = re.compile(
+    rf"{LEAD}(?:how (?:much|many \S+)(?: of (?:it|the pad))? (?:is|are|stays?|remains?|lies?) )?"
+    r"(?:the )?(?:uncovered|not covered|free|bare|untouched|empty|not touched|unoccupied|rest)"
+    rf"(?: (?:part|area|one))?{END}",
+    re.I,
+)
+
+
+def free_part(question: str, meant: Meaning | None) -> str:
+    """'And uncovered?' behind an area, in its unit."""
+    if not isinstance(meant, Amount) or meant.quantity not in ("area", "free_area"):
+        return ""
+    if _FREE.fullmatch(question) is None:
+        return ""
+    unit = {"%": "percent"}.get(meant.unit, meant.unit)
+    return f"How much of the pad stays free in {unit}?"
+
+
+_IS_A_LOT = re.compile(
+    r"(?:is|would) (?:that|it|this) (?:be )?(?:a lot|much|little|a little|big|high|low|normal|"
+    r"large|small)(?: or (?:not|little|small|low))?[?.! ]*",
+    re.I,
+)
+
+
+def is_a_lot(question: str, meant: Meaning | None) -> str:
+    """'Is that a lot?' behind a depth or an area, which have words for how much."""
+    name = meant.quantity if isinstance(meant, Amount) else ""
+    asked = name in ("depth", "area") and _IS_A_LOT.fullmatch(without_lead(question))
+    return f"What is the {name} in one word?" if asked else ""
+
+
 def in_that_place(question: str, meant: Meaning | None) -> str:
     """'In the right third?', where the place was asked for before."""
     core = without_lead(question)
@@ -186,6 +218,7 @@ def named_alone(question: str, before: str) -> str:
     if (asked := _NAMED.fullmatch(question)) is None:
         return ""
     name = asked["name"].lower()
-    if re.search(r"\bsame\b", question, re.I) and before.endswith("in one word?"):
+    is_same = re.search(r"\bsame\b", question, re.I) is not None
+    if is_same and re.search(r"\bin (?:one|a|a single) word[?.! ]*$", before):
         return f"What is the {name} in one word?"
     return f"What is the {_CALLS.get(name, name)}{(asked['unit'] or '').lstrip(',')}?"

@@ -50,19 +50,22 @@ class Told:
         band_n: Force band [N]; None likewise.
         limit_n: Limit of the force [N]; None likewise.
         is_supposed: Whether it counts for one question alone: 'if it weighs 50 g'.
+        end_n: One end of the band alone, 'lower' or 'upper', and its force [N]; None likewise.
     """
 
     mass_g: float | None = None
     band_n: tuple[float, float] | None = None
     limit_n: float | None = None
     is_supposed: bool = False
+    end_n: tuple[str, float] | None = None
 
     @property
     def question(self) -> str:
         """The question that it answers."""
         if self.mass_g is not None:
             return "What is the mass?"
-        return "What is the limit?" if self.band_n is None else "What is the band?"
+        is_band = self.band_n is not None or self.end_n is not None
+        return "What is the band?" if is_band else "What is the limit?"
 
     @property
     def text(self) -> str:
@@ -72,6 +75,8 @@ class Told:
             told.append(f"the object weighs {self.mass_g:g} g")
         if self.band_n is not None:
             told.append(f"the force band is {self.band_n[0]:g} to {self.band_n[1]:g} N")
+        if self.end_n is not None:
+            told.append(f"the {self.end_n[0]} end of the force band is {self.end_n[1]:g} N")
         if self.limit_n is not None:
             told.append(f"the limit is {self.limit_n:g} N")
         return " and ".join(told)
@@ -105,6 +110,9 @@ def told_in(text: str, about: Meaning | None = None) -> tuple[Told, str] | None:
     found = _TOLD.fullmatch(text)
     if found is None and (circumstance := _BEFORE_IT.match(text)):
         found = _TOLD.fullmatch(text[circumstance.end() :])
+    if found is None and (end := _END_MOVED.fullmatch(text)):
+        side = "lower" if re.match("low|bottom|min|least", end["end"], re.I) else "upper"
+        return Told(end_n=(side, in_own_unit(end["number"], end["unit"]))), ""
     if found is None and (mass := _CORRECTED_MASS.fullmatch(text)):
         return Told(mass_g=in_own_unit(mass["number"], mass["unit"])), ""
     if found is None:
@@ -123,6 +131,16 @@ def told_in(text: str, about: Meaning | None = None) -> tuple[Told, str] | None:
     is_asked = "?" in asked or _ASKS.match(asked)  # 'the limit is 3 N, it is glass' asks nothing
     return told, asked if is_asked else ""
 
+
+_END_MOVED = re.compile(
+    r"(?:(?:now|so|ok|and|then|please|actually)[, ]+)*(?:(?:raise|lower|set|move|put|change|"
+    r"increase|reduce|bring)(?: up| down)? )?(?:the |its )?(?P<end>(?:lower|upper|bottom|top|low|"
+    r"high)(?: (?:end|bound|edge|side))?|min(?:imum)?|least)(?: of (?:the|my|our) (?:force )?band)?"
+    r" ?(?:to|is now|is|at|becomes|=|:) ?(?P<number>\d+(?:[.,]\d+)?) ?"
+    r"(?P<unit>N|newtons?|mN|millinewtons?)(?: now| instead)?[.!]*",
+    re.I,
+)
+"""'Now raise the lower end to 1.8 N.'"""
 
 _CORRECTED_MASS = re.compile(
     r"(?:sorry|no|wait|correction|oops|i meant?)[,:]? (?:(?:it['’]?s|it is|i meant?) )?"
@@ -145,7 +163,7 @@ _ASKS = re.compile(
 _STATES = re.compile(
     r"(?:\b(?:is|are|was|weighs?|weighed|runs?|has|have|had|got|handling|holding|gripping|took|"
     r"wants?|need|needs|set|keep|keeping|assume|caps?|allows?|permits?|each|apiece|says?|told|"
-    r"cracks?|breaks?|bruises?|crush\w*|max|limit|"
+    r"cracks?|breaks?|bruises?|crush\w*|ruins?|spoils?|hurts?|damages?|squash\w*|must|max|limit|"
     r"never|pretend|imagine|suppose|recipe)\b|['’](?:s|re|ve)\b)",
     re.I,
 )
@@ -169,7 +187,9 @@ _IS_FORCE = re.compile(
 _BOUNDS = re.compile(
     r"\b(?:limit\w*|max\w*|caps?|never|no more|not more|(?:don['’]?t|do not|must not|may not|"
     r"mustn['’]?t|"
-    r"can['’]?t) (?:\w+ ){0,3}?(?:more|exceed|above|over|beyond)|at most|ceiling|cap|(?:cracks?|"
+    r"can['’]?t) (?:\w+ ){0,3}?(?:more|exceed|above|over|beyond)|anything (?:above|over|beyond|"
+    r"past|more than)|(?:more than|above|over|beyond) [^.]*\b(?:ruins?|spoils?|bruises?|cracks?|"
+    r"breaks?|hurts?|damages?|crush\w*|squash\w*)|at most|ceiling|cap|(?:cracks?|"
     r"breaks?|bruises?|crush\w*|bursts?|splits?|gives way) (?:above|over|at|beyond|from|past)|not "
     r"above|not over|not exceed\w*|stay (?:below|under)|keep (?:it )?(?:below|under))\b",
     re.I,
@@ -239,6 +259,8 @@ def with_told(scene: AskedScene, told: Told) -> AskedScene:
     """
     if told.mass_g is not None:
         scene = replace(scene, mass_g=told.mass_g)
+    if told.end_n is not None:
+        return _with_end(scene, *told.end_n)
     if told.band_n is None and told.limit_n is None:
         return scene
     limit_n = scene.told_limit_n if told.limit_n is None else told.limit_n
@@ -254,3 +276,19 @@ def with_told(scene: AskedScene, told: Told) -> AskedScene:
         return replace(scene, contract=None, told_limit_n=limit_n)
     contract = replace(contract_before, limit_n=limit_n)
     return replace(scene, contract=contract, told_limit_n=limit_n)
+
+
+def _with_end(scene: AskedScene, side: str, force_n: float) -> AskedScene:
+    """A scene whose band has another end; its limit stays where it is not below that.
+
+    Raises:
+        ValueError: There is no band, or it would be upside down.
+        LimitError: The contract would be refused.
+    """
+    contract = scene.contract
+    if contract is None or contract.force_n is None:
+        raise ValueError("no force band is given that could have another end")
+    band, limit_n = contract.force_n, contract.limit_n
+    low_n, high_n = (force_n, band.high) if side == "lower" else (band.low, force_n)
+    kept_n = limit_n if limit_n is not None and limit_n >= high_n else None
+    return with_told(scene, Told(band_n=(low_n, high_n), limit_n=kept_n))

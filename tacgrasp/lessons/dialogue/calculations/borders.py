@@ -211,6 +211,42 @@ def nearest_border(asked: AskedWords) -> Calculated | None:
     )
 
 
+_FARTHER = re.compile(
+    r"(?=.*\b(?:distance|gap|way|space|room|clearance|edges?|borders?|rims?|margin)\b)"
+    r"(?=.*\b(?:bigger|larger|greater|longer|wider|farther|further|farthest|furthest)\b)"
+    r"(?!.*\b(?:than|how|by)\b)(?:(?:and|so) )?(?:which|what|is|are|where)\b.*"
+)
+_TWO = re.compile(
+    r"\b(?P<a>left|right|top|bottom|upper|lower)\b.*\bor\b.*\b(?P<b>left|right|top|bottom|upper|"
+    r"lower)\b"
+)
+_AWAY = {"left": "x_mm > 0", "right": "x_mm < 0", "top": "y_mm < 0", "upper": "y_mm < 0",
+         "bottom": "y_mm > 0", "lower": "y_mm > 0"}  # fmt: skip
+
+
+def farther_border(question: str) -> Calculated | None:
+    """Which of two borders, or of all four, is farther away; None of other questions.
+
+    'What is bigger: the distance to the left edge or to the right edge?'
+    """
+    words = " ".join(re.findall(r"[a-z]+", question.lower()))
+    if _FARTHER.match(words) is None or re.search(r"\d", question):
+        return None
+    if two := _TWO.search(words):
+        a, b = two["a"], two["b"]
+        opposite = {_AWAY[a], _AWAY[b]} in ({"x_mm > 0", "x_mm < 0"}, {"y_mm > 0", "y_mm < 0"})
+        return Calculated(truth=f"'{a}' if {_AWAY[a]} else '{b}'", unit=None) if opposite else None
+    if re.search(r"\b(?:left|right|top|bottom|upper|lower|or)\b", words) or "which" not in words:
+        return None
+    return Calculated(
+        truth=(
+            f"('left' if x_mm > 0 else 'right') if {_X} + abs(x_mm) > {_Y} + abs(y_mm) else "
+            "('top' if y_mm < 0 else 'bottom')"
+        ),
+        unit=None,
+    )
+
+
 def _length(expression: str) -> Term:
     return Term(expression=expression, dimension="length", words="", is_sum=True)
 

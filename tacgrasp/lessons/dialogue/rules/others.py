@@ -45,6 +45,7 @@ _EARLIER = re.compile(
     r"contact|indentation|press|grip|attempt|object|part|try)\b|\bthan (?:before|earlier|"
     r"previously|a (?:moment|second|while) ago|just now)\b"
 )
+_TIMES_DONE = re.compile(r"how (?:many times|often) (?:did|have|has|had|was|were)\b")
 _CHANGED = re.compile(
     r"\b(?:increas|decreas|chang|grow|shrink|ris|drift)(?:e|ed|es|ing|en|n|s)?\b|"
     r"\b(?:got|gotten|getting|become|became|becoming) (?:any )?(?:more|less|\w+er)\b"
@@ -63,7 +64,9 @@ _EXTENT = re.compile(
     r"(?:contact|patch|contact patch|imprint|print|footprint|dent|object|thing|it)(?: in \w+)?"
 )
 _COUNTED = re.compile(
-    r"how many (?:dots|stripes|lines|edges|corners|bumps|holes|ridges|sides|points|grooves|pits)\b"
+    r"how many (?:(?:dots|stripes|lines|edges|corners|bumps|holes|ridges|sides|points|grooves|"
+    r"pits)\b|(?:objects|things|items|fingers|dents|people|hands|berries|pieces|parts) "
+    r"(?:are|do|does|is|can|hold|touch|lie|there)\b)"
 )
 _DOUBT = re.compile(
     r"(?:are|how) (?:you )?(?:really |quite |very |so )?(?:sure|certain|confident)(?: are you)?"
@@ -114,8 +117,10 @@ def other_query(words: str) -> str:
         return "unknown size."
     if _NOT_NORMAL.search(words) or _COUNTED.match(words):
         return "unknown trait."
-    if _EARLIER.search(words) or (
-        _ASKS_CHANGE.match(words) and _CHANGED.search(words) and "#" not in words
+    if (
+        _EARLIER.search(words)
+        or _TIMES_DONE.match(words)
+        or (_ASKS_CHANGE.match(words) and _CHANGED.search(words) and "#" not in words)
     ):
         return "unknown past."
     if _LEFT_BY.match(words):

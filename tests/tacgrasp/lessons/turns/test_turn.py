@@ -28,7 +28,7 @@ class Refusing:
     width = 8
 
     def reply_to(self, touch, prompt, *, grammar):
-        raise AssertionError(f"the model was asked {prompt!r}")
+        pytest.fail(f"the model was asked {prompt!r}", pytrace=False)  # a grammar's repr is endless
 
 
 def last_turn(*questions: str) -> Turn:
@@ -378,3 +378,42 @@ def test_a_number_that_is_told_is_another_one_in_a_follow_up():
     assert turn.read.query in ("check slips given.", "check slips #1 g.", "calculate holds_g < 80.")
     turn = last_turn("If the band is 1 to 2 N, is it safe to lift?", "and 3 N?")
     assert turn.told.text == "the force band is 1 to 3 N"
+
+
+@pytest.mark.parametrize(
+    ("questions", "query"),
+    [
+        (("How much of the pad is covered?", "And uncovered?"), "amount free_area %."),
+        (("What is the area in mm2?", "and free?"), "amount free_area mm²."),
+        (("How deep is it?", "Is that a lot?"), "choice depth in a word."),
+        (
+            ("Is the force above the limit?", "How many newtons lie between the two?"),
+            "calculate abs(force_n - (limit_n)) in N.",
+        ),
+        (
+            (
+                "How much force does it need?",
+                "and a 90 g one?",
+                "Do we have that much grip already?",
+            ),
+            "calculate force_n >= (gram_n * 90).",
+        ),
+        (
+            ("What is the contact area in mm2?", "Is that over a quarter of the pad?"),
+            "check area > #1 %.",
+        ),
+        (("Is it deeper than 0.3 mm?", "0.6?", "ok what's the actual value"), "amount depth mm."),
+        (
+            ("Is it cut off by the border?", "On more than one side?"),
+            "calculate cut_left + cut_right + cut_top + cut_bottom > 1.",
+        ),
+        (
+            ("Is it safe to lift?", "Would it be safe with 0.5 N less?", "And with 0.5 N more?"),
+            "calculate band_low_n <= ((force_n + 0.5)) <= band_high_n.",
+        ),
+        (("What is the lowest force of the band?", "And the highest?"), "amount band_high N."),
+        (("How deep is it, in a word?", "Same for the area."), "choice area in a word."),
+    ],
+)
+def test_what_testers_said_in_a_row(questions, query):
+    assert last_turn(*questions).read.query == query

@@ -1,0 +1,89 @@
+"""Questions whether what somebody reports is right, and questions about what was before this touch.
+
+    The display says 1 N. Is that right?            check force about #1 N.
+    Is the operator right that the force is 2 N?    check force about #1 N.
+    My colleague wrote 0.1 mm. Is he wrong?         check not depth about #1 mm.
+    Did the force ever go above 4 N?                unknown past.
+    Was the limit respected during the whole shift?
+
+Not here: statements that are doubted (``tacgrasp.lessons.dialogue.clauses.verdicts``).
+"""
+
+from __future__ import annotations
+
+import re
+
+from policies.instructions.quantities.numerals import in_digits
+from tacgrasp.lessons.dialogue.meaning import Meaning
+from tacgrasp.lessons.dialogue.query import asked_text, read_query
+from tacgrasp.lessons.dialogue.written_units import numbers_in_units
+
+_REPORTS = (
+    r"(?:says?|said|reads?|shows?|showed|wrote|writes|written|noted|notes|logged|recorded|"
+    r"reported|reports|claims?|claimed|thinks?|believes?|displays?|displayed|told|measured|"
+    r"estimated|estimates|guessed|guesses|stated|states|entered|gives|gave|put down|typed)"
+)
+_RIGHT = r"(?:right|correct|true|accurate|so|fine|ok(?:ay)?|plausible|credible)"
+_WRONG = r"(?:wrong|false|incorrect|mistaken|off|lying|untrue|inaccurate)"
+_WHO = r"(?:that|this|it|he|she|they|the (?:value|figure|number|reading|entry|log|report))"
+_NUMBER = re.compile(
+    r"(?<![\w.])\d+(?:\.\d+)? ?(?:(?P<force>m?n|newtons?|millinewtons?)|(?P<depth>mm|µm|um|"
+    r"microns?|millimet(?:re|er)s?|micromet(?:re|er)s?)|(?P<area>%|percent))(?![\w²³/])"
+)
+_UNIT = {
+    "n": "N", "newton": "N", "mn": "mN", "millinewton": "mN", "mm": "mm", "millimetre": "mm",
+    "millimeter": "mm", "µm": "µm", "um": "µm", "micron": "µm", "micrometre": "µm",
+    "micrometer": "µm", "%": "%", "percent": "%",
+}  # fmt: skip
+_TOLD = re.compile(
+    rf"(?:[a-z' ]+ {_REPORTS} .+?[.,;:–—-]+ *(?:so |and )?(?:(?:is|are|was) {_WHO} (?:{_RIGHT}|"
+    rf"(?P<a>{_WRONG}))|{_RIGHT}|(?P<b>{_WRONG})|can i (?:sign|confirm|accept|trust|believe) "
+    r"(?:that|it|this)|(?:do|would|can) you (?:agree|confirm (?:that|it|this)|sign that))|"
+    rf"(?:is|was|are) (?!it\b|that\b|this\b)(?:the |my |our )?[a-z]+ "
+    rf"(?:{_RIGHT}|(?P<c>{_WRONG})) (?:that|when (?:he|she|they|it) {_REPORTS}(?: that)?|"
+    r"in saying(?: that)?) .+|"
+    r"(?:is|was) (?:the |a |this |that )?(?:reported|logged|noted|displayed|recorded|stated|"
+    r"entered|written|shown|claimed|measured) (?:\w+ of )?[\d.]+ ?\S+ (?:really )?"
+    rf"(?:{_RIGHT}|(?P<d>{_WRONG})))[ ?.!]*"
+)
+_COMPARES = re.compile(
+    r"\b(?:over|under|above|below|more|less|at least|at most|between|within|than|exceeds?|beyond|"
+    r"limit|band|weighs?|offset|left|right of|wide|away|from)\b"
+)
+_HISTORY = re.compile(
+    r"\bat any (?:time|point|moment|stage)\b|\bat no (?:time|point|moment)\b|"
+    r"\b(?:during|throughout) (?:the|this|your|our|my) (?:whole |entire |full |last |past )?"
+    r"(?:shift|day|night|week|month|cycle|run|session|morning|afternoon|hour)\b|"
+    r"\b(?:the|this) (?:whole|entire) (?:time|shift|day|run|cycle|job)\b|\ball along\b|"
+    r"\b(?:so far|until now|up to now) today\b|"
+    r"\b(?:did|has|have|had|was|were) (?:(?:the|my|our|its|this) \w+|it|we|you|i|this|that) "
+    r"(?:ever|always|never)\b(?!-)|"
+    r"\bnever (?:exceeded|went|got|left|fell|rose|passed|reached|dropped|slipped)\b|"
+    r"\bnever (?:been )?left\b|\balways (?:stayed|remained|kept|been)\b"
+)
+_NOW = re.compile(r"\d+ ?(?:g|grams?|kg)\b.*\b(?:ever|always)\b")
+
+
+def reported(question: str) -> Meaning | None:
+    """Whether a number that somebody reports is about what is felt; None of other questions."""
+    words = " ".join(in_digits(question.lower()).replace("’", "'").split())
+    if (told := _TOLD.fullmatch(words)) is None:
+        return None
+    numbers = list(_NUMBER.finditer(words))
+    quantity = numbers[0].lastgroup if len(numbers) == 1 else None
+    if quantity in (None, "area") or _COMPARES.search(words):
+        return None
+    unit = _UNIT[re.sub(r"^[\d. ]+", "", numbers[0][0]).removesuffix("s")]
+    denied = "not " if any(told.groups()) else ""
+    query = f"check {denied}{quantity} about #1 {unit}."
+    asked = asked_text(question)
+    values = numbers_in_units(query, asked.words, asked.numbers)
+    return None if values is None else read_query(query, values)
+
+
+def of_history(question: str) -> Meaning | None:
+    """What was before this touch, which one frame does not tell; None of other questions."""
+    words = question.lower()
+    if _HISTORY.search(words) is None or _NOW.search(words):
+        return None
+    return read_query("unknown past.")
