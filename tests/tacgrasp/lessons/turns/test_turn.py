@@ -391,12 +391,8 @@ def test_a_number_that_is_told_is_another_one_in_a_follow_up():
             "calculate abs(force_n - (limit_n)) in N.",
         ),
         (
-            (
-                "How much force does it need?",
-                "and a 90 g one?",
-                "Do we have that much grip already?",
-            ),
-            "calculate force_n >= (gram_n * 90).",
+            ("What grip is needed to surely hold it?", "Are you gripping that hard?"),
+            "calculate force_n >= (gram_n * mass_g).",
         ),
         (
             ("What is the contact area in mm2?", "Is that over a quarter of the pad?"),
