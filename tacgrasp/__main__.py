@@ -14,7 +14,7 @@ COMMANDS = {
     "serve": "let robots and programs ask a policy over the network (openpi's protocol)",
     "demo": "play a scripted demo with a known course; without a name list them",
     "replay": "show an episode step by step; --decide asks a policy again, --execute moves again",
-    "episodes": "list, inspect, recover, plot and export recorded episodes",
+    "episodes": "ls, info, plot, recover, export: look at recorded episodes, or write them anew",
     "why": "what went wrong first in an episode: the state before it, what was sent, how to replay",
     "view": "see an episode, a rig or a sensor in rerun's viewer (extra 'view')",
     "describe": "describe the contact in a cloud, height map or camera frame",

@@ -48,7 +48,9 @@ def read_npy(data: bytes) -> NDArray[np.float64]:
 
 
 def read_npz(data: bytes) -> NDArray[np.float64]:
-    """The one array of a .npz file, or the one named ``points_mm`` or ``height_mm``.
+    """The one array of a .npz file, or the first named ``points_mm``, ``seen_mm``, ``height_mm``.
+
+    ``seen_mm`` are heights as a sensor reports them, beside the true ones (``tacgrasp simulate``).
 
     Raises:
         TouchError: Not a whole .npz file, none or several arrays, an encrypted one, points that are
@@ -72,11 +74,29 @@ def read_npz(data: bytes) -> NDArray[np.float64]:
         raise TouchError(f"not a whole .npz of numbers: {error}") from None
 
 
+def sensor_in_npz(data: bytes) -> str:
+    """The name of the sensor that a .npz file is of; '' where it says none."""
+    try:
+        with zipfile.ZipFile(io.BytesIO(data)) as archive, archive.open("sensor.npy") as file:
+            head = file.read(_MAX_HEADER_BYTES)
+        stream = io.BytesIO(head)
+        shape, _, dtype = _ARRAY_HEADERS[np.lib.format.read_magic(stream)](stream)
+        if shape != () or dtype.kind != "U" or len(head) < stream.tell() + dtype.itemsize:
+            return ""
+        return str(np.frombuffer(head, dtype=dtype, count=1, offset=stream.tell())[0])
+    except (zipfile.BadZipFile, zlib.error, EOFError, KeyError, NotImplementedError, OSError,
+            OverflowError, RuntimeError, ValueError, SyntaxError):  # fmt: skip
+        return ""  # what is damaged is refused as the array is read
+
+
 def _member(archive: zipfile.ZipFile) -> bytes:
     """The bytes of the one array, as far as ``MAX_NUMBERS`` of them can need."""
     entries = {info.filename.removesuffix(".npy"): info for info in archive.infolist()}
     names = list(entries)
-    candidates = [n for n in ("points_mm", "height_mm") if n in names] or names
+    named = [n for n in ("points_mm", "seen_mm", "height_mm") if n in names]
+    if "points_mm" not in named:
+        named = named[:1]
+    candidates = named or names
     if len(candidates) != 1:
         raise TouchError(
             "expected one array, or one named points_mm or height_mm; the file has "

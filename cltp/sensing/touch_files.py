@@ -19,9 +19,9 @@ from numpy.typing import NDArray
 from cltp.errors import TouchError
 from cltp.sensing.cloud_formats import read_pcd, read_ply, read_xyz
 from cltp.sensing.frames import FRAME_SUFFIXES, read_frame
-from cltp.sensing.numpy_files import read_npy, read_npz
+from cltp.sensing.numpy_files import read_npy, read_npz, sensor_in_npz
 from cltp.tactile.cloud import TactileCloud, cloud_from_heights, grid_axes_mm
-from cltp.tactile.sensors import SensorSpec
+from cltp.tactile.sensors import SENSORS, SensorSpec
 
 ASPECT_TOLERANCE = 0.05
 """Largest relative difference of a map's aspect from the sensor's; transposed, it is 80 %."""
@@ -64,7 +64,7 @@ def read_cloud(
         heights = _frame_heights(path, sensor, background, calibration)
         with path_in_errors(path):
             return cloud_from_heights(heights, sensor)
-    array = _read_array(path)
+    array = _read_array(path, sensor)
     for flag, given in (("--background", background), ("--calibration", calibration)):
         if given is not None:
             raise TouchError(
@@ -96,7 +96,7 @@ def read_heights(
     """
     if path.suffix.lower() in FRAME_SUFFIXES:
         return _frame_heights(path, sensor, background, calibration)
-    array = _read_array(path)
+    array = _read_array(path, sensor)
     with path_in_errors(path):
         cloud = _cloud_of(array, sensor)
         return array.astype(np.float32) if array.shape[1] != 3 else _surface(cloud)
@@ -122,7 +122,15 @@ def _surface(cloud: TactileCloud) -> NDArray[np.float32]:
     return interpolated(cloud, x, y, LinearNDInterpolator).astype(np.float32)
 
 
-def _read_array(path: Path) -> NDArray[np.float64]:
+def _check_sensor(name: str, sensor: SensorSpec) -> None:
+    """Refuse a file that says it is of another sensor."""
+    if name in SENSORS and name != sensor.name:
+        raise TouchError(
+            f"it is of {name}, and was to be read as {sensor.name}; name --sensor {name}"
+        )
+
+
+def _read_array(path: Path, sensor: SensorSpec) -> NDArray[np.float64]:
     """The numbers in a file, unchanged."""
     readers: dict[str, Callable[[bytes], NDArray[np.float64]]] = {
         ".ply": read_ply,
@@ -147,8 +155,11 @@ def _read_array(path: Path) -> NDArray[np.float64]:
     if size > MAX_FILE_BYTES:
         raise TouchError(f"{path} has {size} bytes; at most {MAX_FILE_BYTES} are read")
     try:
+        data = path.read_bytes()
         with path_in_errors(path):
-            return reader(path.read_bytes())
+            if path.suffix.lower() == ".npz":
+                _check_sensor(sensor_in_npz(data), sensor)
+            return reader(data)
     except OSError as error:
         raise TouchError(f"{path} can't be read: {error.strerror or error}") from None
 

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from tacgrasp.base.errors import UsageError
+from tacgrasp.base.folders import check_folder
 from tacgrasp.base.result_file import check_ending
 from tacgrasp.cli.eval_ablate import main as ablate
 from tacgrasp.cli.eval_captions import main as captions
@@ -219,14 +220,20 @@ def report(argv: Sequence[str]) -> None:
     json_path = writable(flags.json)
     from rich.console import Console
 
+    from tacgrasp.console import working
     from tacgrasp.pretraining.report.print_results import write_figures
     from tacgrasp.pretraining.report.report import report
     from tacgrasp.pretraining.report.row_file import load_rows
     from tacgrasp.pretraining.report.row_status import row_figures
     from tacgrasp.pretraining.report.store import load_results
 
-    folder = flags.results or RESULTS_DIR
-    for page in report(folder, flags.out or flags.results or PAGES_DIR, weights=flags.weights):
+    folder, out = flags.results or RESULTS_DIR, flags.out or flags.results or PAGES_DIR
+    check_folder(out, "--out")
+    if flags.weights is not None and not flags.weights.is_dir():
+        raise UsageError(f"--weights {flags.weights} is no folder; name that of all methods")
+    with working("drawing the pages"):
+        pages = report(folder, out, weights=flags.weights)
+    for page in pages:
         Console(soft_wrap=True).print(str(page), markup=False, highlight=False)
     rows = load_rows(folder)
     results = [*(result for row in rows for result in row.results()), *load_results(folder)]

@@ -39,8 +39,13 @@ def parse(kind: type[T], argv: Sequence[str], *, prog: str, default: T | None = 
 
     with tyro_errors.on_parse_error(refuse):
         if default is None:
-            return tyro.cli(kind, args=argv, prog=prog)
-        return tyro.cli(kind, args=argv, prog=prog, default=default)
+            flags = tyro.cli(kind, args=argv, prog=prog)
+        else:
+            flags = tyro.cli(kind, args=argv, prog=prog, default=default)
+    seed = getattr(flags, "seed", None)
+    if isinstance(seed, int) and seed < 0:
+        raise UsageError(f"--seed must be at least 0, got {seed} (see {prog} --help)")
+    return flags
 
 
 def parse_some(kind: type[T], argv: Sequence[str]) -> T:
@@ -61,6 +66,10 @@ _NO_NUMBER = re.compile(
     r"^(?:invalid literal for int\(\) with base 10|could not convert string to float): "
 )
 """How Python says that a text is no number."""
+
+
+_NO_TYPE = re.compile(r"no type matching .* could be instantiated from (.*)$", re.S)
+"""How tyro says that none of several types fits."""
 
 
 def _problem(event: tyro_errors.ParseErrorEvent, flags: object) -> str:
@@ -85,7 +94,12 @@ def _problem(event: tyro_errors.ParseErrorEvent, flags: object) -> str:
             if argument is not None:
                 reason = message.splitlines()[0].partition(" into tuple type")[0]
                 reason = _NO_NUMBER.sub("got ", reason)
-                return f"{_name(argument)} must be {argument.lowered.metavar}: {reason}"
+                metavar = str(argument.lowered.metavar)
+                if given := _NO_TYPE.match(reason):
+                    given_text = " ".join(re.findall(r"'([^']*)'", given[1]))
+                    wanted = metavar.removeprefix("{None}|").strip("{}")
+                    return f"{_name(argument)} needs {wanted}, got {given_text or 'nothing'}"
+                return f"{_name(argument)} must be {metavar}: {reason}"
             error = sys.exception()
             while error is not None and not isinstance(error, ValidationError):
                 error = error.__context__  # tyro passes on the text of pydantic's error alone

@@ -99,8 +99,9 @@ class PressRequest:
         depth_mm: Depth of the object's tip below the undeformed surface [mm].
         sensor: Sensor: gelsight_mini, gelsight_mini_markers, gelsight_r15, digit, gelstereo or
             taxels.
-        x_mm: Position of the tip, positive to the right of the pad's centre [mm].
-        y_mm: Position of the tip, positive towards the top of the pad [mm].
+        x_mm: Position of the tip, positive to the right of the pad's centre [mm]; of an object of
+            the catalogue, added to its random place.
+        y_mm: The same, positive towards the top of the pad [mm].
         turn_deg: Rotation of the object in the plane of the pad [deg].
         grid: Grid over the sensing area, COLUMNSxROWS. Default: the sensor's own, 320x240.
         noise: Noise of the sensor: none, unit (a calibrated unit) or uncalibrated.

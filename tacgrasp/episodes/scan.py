@@ -82,6 +82,10 @@ def scan_file(path: Path) -> Scan:
         EpisodeError: It can't be read, is empty, is not an MCAP file, or is larger than the bounds
             above.
     """
+    if path.is_dir():
+        raise EpisodeError(
+            f"{path} is a folder; name an episode in it (`tacgrasp episodes ls {path}` lists them)"
+        )
     try:
         size = path.stat().st_size
         data = path.read_bytes() if size <= MAX_BYTES else b""

@@ -483,3 +483,19 @@ def test_a_calibration_with_a_robot_keeps_to_one_thread(
         monkeypatch.delenv(variable)
     main(["calibrate", *argv])
     assert {os.environ.get(variable) for variable in THREADS} == {expected}
+
+
+@pytest.mark.parametrize(
+    "argv",
+    [
+        ["calibrate", "gelsight-mini", "--balls", "none", "--diameter-mm", "6"],
+        ["train", "cltp", "--data", "none", "--out", "none"],
+        ["bench", "reflex", "--sensor", "taxels"],
+    ],
+)
+def test_a_negative_seed_is_refused_before_anything_begins(argv, capsys):
+    flag = "--first-seed" if argv[0] == "bench" else "--seed"
+    assert main([*argv, f"{flag}=-1"]) == 2
+    error = capsys.readouterr().err
+    assert flag in error
+    assert error.count("\n") == 1
