@@ -17,6 +17,9 @@ from tacgrasp.episodes import Episode
 MAX_DEVIATION_MM = 1.0
 """A repeated pose further than this from the recorded one changes the exit code [mm]."""
 
+SAME_FORCE_N = 0.005
+"""A force that differs by less is printed alike [N]."""
+
 
 @dataclass(frozen=True)
 class ReplayFlags:
@@ -114,11 +117,13 @@ def _execute(episode: Episode, path: Path, console: Console) -> int:
         )
     with working("connecting the rig"):
         rig = make_rig(config)
-    largest_mm, num_actions = 0.0, 0
+    largest_mm, num_actions, forces_n = 0.0, 0, []
     try:
         with closing(repeat(episode, rig, config)) as actions:
             for action in actions:
                 num_actions, largest_mm = num_actions + 1, max(largest_mm, action.deviation_mm)
+                if abs(action.deviation_n) > SAME_FORCE_N:
+                    forces_n.append(abs(action.deviation_n))
                 executed = action.executed
                 console.print(
                     f"{action.index:3d}  {executed.primitive}: {executed.sent} | "
@@ -128,7 +133,8 @@ def _execute(episode: Episode, path: Path, console: Console) -> int:
                 )
     finally:
         rig.disconnect()
-    console.print(
-        f"{num_actions} actions repeated; at most {largest_mm:.2f} mm from the recorded poses"
-    )
+    text = f"{num_actions} actions repeated; at most {largest_mm:.2f} mm from the recorded poses"
+    if forces_n:
+        text += f", {len(forces_n)} with another force (by {max(forces_n):.2f} N at most)"
+    console.print(text)
     return 1 if largest_mm > MAX_DEVIATION_MM else 0

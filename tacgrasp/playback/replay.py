@@ -54,11 +54,13 @@ class RepeatedAction:
         index: Number of its step.
         executed: The action as sent and reached now.
         deviation_mm: Distance between the recorded pose and the one reached now [mm].
+        deviation_n: Force commanded now less the recorded one [N].
     """
 
     index: int
     executed: Executed
     deviation_mm: float
+    deviation_n: float
 
 
 def config_of(episode: Episode, path: Path) -> RunConfig:
@@ -165,7 +167,12 @@ def repeat(episode: Episode, rig: Rig, config: RunConfig) -> Generator[RepeatedA
             if recorded is not None and recorded.primitive is not None:
                 executed = executor.execute(recorded.primitive, recorded.force_n or None)
                 deviation_mm = distance_mm(executed.reached, recorded.reached)
-                yield RepeatedAction(index=step.index, executed=executed, deviation_mm=deviation_mm)
+                yield RepeatedAction(
+                    index=step.index,
+                    executed=executed,
+                    deviation_mm=deviation_mm,
+                    deviation_n=executed.force_n - recorded.force_n,
+                )
             elif step.phase is StepPhase.VERIFY_AFTER:
                 check_workspace(step.tcp_pose, config.limits())
                 speed, acceleration = config.verify.speed_m_s, config.verify.acceleration_m_s2
