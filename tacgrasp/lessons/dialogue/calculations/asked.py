@@ -100,6 +100,11 @@ _AS_RATIO = re.compile(
     r"(?: (?:expressed )?)?as (?:a )?(?:plain |simple |decimal |bare )?(?:fraction|number|"
     r"ratio)(?: between #\d+ and (?:one|#\d+))?(?= |$) ?"
 )
+_WERE_FIRST = re.compile(
+    r"^were ((?:(?:the|our|my|its|this) )?\w+) (?!to\b)"
+    r"(?=[^,]+, (?:would|will|is|are|does|could|what|how)\b)"
+)
+"""'Were it 0.2 mm deeper, would it be over 0.9 mm?'"""
 _AS_PERCENTAGE = re.compile(r" (?:in percent|as (?:a )?percentages?)(?= |$)")
 _ANSWERED = re.compile(
     r" (?:answer|say|reply|respond|just say)(?: with| only)? "
@@ -310,7 +315,8 @@ def usual_unit(dimension: str) -> str:
 
 def asked_words(question: str) -> AskedWords:
     """A question in plain words, with what it says of unit and sign taken out."""
-    question = _EXTRA_ONE.sub("another ", _ITS.sub("the", question.lower()))
+    question = _WERE_FIRST.sub(r"if \1 were ", question.lower())
+    question = _EXTRA_ONE.sub("another ", _ITS.sub("the", question))
     question = _OVER_MAXIMUM.sub(r"\1 the limit", question)
     question = _FULL_ONE.sub("1 ", _ONE_MORE.sub(r"1 \1 more", question))
     question = _PER_SLASH.sub(r"\1 per \2", _KEEPING_SIGNS.sub("", question))

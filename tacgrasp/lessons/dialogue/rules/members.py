@@ -21,7 +21,7 @@ _ONE_OF = re.compile(
     r"\b(?:belong|belongs|fall|falls|count|counts|qualif\w+) (?:to|into|in|as|among)\b|"
     r"\banything\b|\bfile\b.*\bunder\b|\b(?:do|can) (?:you|we) (?:feel|sense|detect|have)\b|"
     r"\bwould (?:you|one) (?:class|call|describe|rate)\b|\bdescribed (?:by|as)\b|"
-    r"\beither of the words\b"
+    r"\beither of the words\b|\brather than anything else\b|\bas opposed to anything else\b"
 )
 _CHOOSES = re.compile(
     r"\b(?:which|what|pick|choose|name|say|tell|neither|none|something else|other|not|if|than)\b"

@@ -43,7 +43,8 @@ _OF_PLACE = (
     r"vertically|sideways|split|cut|divided?|dividing|into|three|3|equal|one|ones|or|and|looking|"
     r"only|just|would|you|call|say|if|i|we|left|right|top|upper|bottom|lower|mid|central|hand|"
     r"field|fields|region|zone|located|from|to|now|currently|lengthwise|horizontal|vertical|with|"
-    r"are|being|where|somewhere|please|sitting|resting|lying|standing|fingertip|sensing|area)"
+    r"are|being|where|somewhere|please|sitting|resting|lying|standing|fingertip|sensing|area|near|"
+    r"end|towards?|tip|palm)"
 )
 _THIRD = re.compile(
     rf"(?:(?:in|within|into|on) )?(?:the )?(?P<word>left|top|upper|bottom|lower|{_MIDDLE}|right)"
