@@ -5,7 +5,14 @@ from __future__ import annotations
 import re
 import unicodedata
 
+_MARKS = "´‘’ʼ′‵＇ʹ`"
+"""What people and keyboards write for an apostrophe."""
+
 _CONTRACTIONS = (
+    (r"\b(do|does|did|is|are|was|were|have|has|had|must|should|could|would|need|might|ca|wo|sha|ai) ?n ?['\";“”] ?t\b", r"\1n't"),
+    (r"\b(do|does|did|is|are|was|were|have|has|had|must|should|could|would|need|might|ca|wo|sha|ai)(?: nt|n t)\b", r"\1n't"),
+    (r"\bdnt\b|\bdon(?= (?:go|exceed|use|squeeze|press|apply|let|hold|grip|be|push|put|get|take|give|make|pass)\b)", "do not"),
+    (r"\bcann'?t\b", "can not"),
     (r"\bwon['’]?t\b", "will not"),
     (r"\bcan['’]t\b|\bcannot\b|\bcant\b", "can not"),
     (r"\bshan['’]?t\b", "shall not"),
@@ -52,10 +59,11 @@ _ASIDE = re.compile(
 
 def plain(text: str) -> str:
     """Lower case, straight quotes, contractions written out, single spaces."""
-    text = re.sub("(\\d*) ?([½¼¾⅓⅔⅛])", _mixed, text)
+    text = re.sub(f"[{_MARKS}]", "'", text)  # before compatible forms: '´' would become a space
+    text = re.sub("(?:(\\d+) ?)?([½¼¾⅓⅔⅛])", _mixed, text)
     text = re.sub("(?<=[\\w)])([⁰¹²³⁴⁵⁶⁷⁸⁹])", r"^\1", text)  # '0.5²' is no 0.52
     text = unicodedata.normalize("NFKC", text).lower()
-    text = text.replace("()", "").replace("’", "'").replace("`", "'").replace("−", "-")
+    text = text.replace("()", "").replace("−", "-").replace("⩽", "<=").replace("&lt;", "<")
     for pattern, replacement in _CONTRACTIONS:
         text = re.sub(pattern, replacement, text)
     text = re.sub(r"\banything (?:but|other than|except)\b", "not", text)

@@ -33,6 +33,11 @@ _OR_LESS = r",? (?:or|and) (?:anything )?(?:less|under|below|lower|down|downward
 _THERE = r"[^.;:,#\d]{0,50}?"
 
 _PLAIN: tuple[tuple[str, str], ...] = (
+    (rf"\bnot (?:even )?(?:an?|one|{NUMBER})\s*(?:{UNIT}) (?:above|over|beyond|more than) {_ONE}", r"at most \g<one>"),
+    (rf"\b(?:can|could|will|would|do) not you\b[^.;,#\d]*?\b{_LESS} {_ONE}", r"at most \g<one>"),
+    (rf"\b(?:stay|steer|keep|remain)\w* (?:well |far |right )?(?:away|clear|off|out)(?: (?:from|of))?(?: the)? {_ONE}", r"at most \g<one>"),
+    (rf"{_ONE}{_WHAT} (?:should|must|is|ought to|has)(?: to)? (?:best |better )?(?:be )?(?:avoided|excluded|shunned|off the table)\b", r"at most \g<one>"),
+    (rf"\b(?:except|other than|apart from|all but|excluding)(?: for)? {_ONE}", r"at most \g<one>"),
     (rf"({_DENIED}{_THERE} ?){_ONE}{_OR_MORE}", r"\1more than \g<one>"),
     (rf"({_DENIED}{_THERE} ?){_ONE}{_OR_LESS}", r"\1less than \g<one>"),
     (rf"{_ONE}{_OR_MORE} (?={FORBIDDEN_AFTER})", r"more than \g<one> "),
@@ -47,8 +52,8 @@ _PLAIN: tuple[tuple[str, str], ...] = (
     (rf"{_ONE} > ?{_FORCE}", r"force < \g<one>"),
     (rf"{_ONE} (?:<=|≤|=<) ?{_FORCE}", r"force >= \g<one>"),
     (rf"{_ONE} < ?{_FORCE}", r"force > \g<one>"),
-    (rf"(\b(?:not|never|no|avoid\w*|without)\b[^.;,#\d]*?\b{_LESS} {_ONE},? (?:or|and)) (?={_SHORT_WORDS}{_MORE} )", r"\1 not "),
-    (rf"(\b(?:not|never|no|avoid\w*|without)\b[^.;,#\d]*?\b{_MORE} {_ONE},? or) (?={_SHORT_WORDS}{_LESS} )", r"\1 not "),
+    (rf"(\b(?:not|never|no|nothing|avoid\w*|without)\b[^.;,#\d]*?\b{_LESS} {_ONE},? (?:or|and)) (?={_SHORT_WORDS}{_MORE} )", r"\1 not "),
+    (rf"(\b(?:not|never|no|nothing|avoid\w*|without)\b[^.;,#\d]*?\b{_MORE} {_ONE},? or) (?={_SHORT_WORDS}{_LESS} )", r"\1 not "),
     (rf"{_ONE},? but (?:a (?:bit|little|touch) |slightly |rather )?(?:softer|gentler|lighter|less|lower)\b(?! than)", r"less than \g<one>"),
     (rf"{_ONE},? (?:minus|less) (?:an?|some) (?:\w+ )?(?:bit|little|hair|touch|tad|smidge\w*)\b", r"less than \g<one>"),
 )  # fmt: skip

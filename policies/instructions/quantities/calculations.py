@@ -14,6 +14,29 @@ from functools import partial
 
 from policies.instructions.quantities.force_units import ALONE, NUMBER, UNIT, in_newtons, number
 
+_SHARE_OF = re.compile(
+    rf"(?<![\w.,/])(?:(?P<a>\d+)\s*/\s*(?P<b>[1-9]\d*)|(?P<c>0?\.\d+)) of (?:the |that |your |our )?(?P<v>{NUMBER})\s*(?P<u>(?:{UNIT})\b)"
+)
+_CHANGED_TO = re.compile(
+    rf"\b(?:reduce|lower|decrease|turn|bring|change|correct|go|drop|move|switch|take|dial|ease|scale|back|cut)\b(?: (?!from\b)[a-z]+){{0,4}}? (?:from )?(?P<v>{NUMBER})\s*(?P<vu>(?:{UNIT})\b)? (?:down )?to (?P<w>{NUMBER})\s*(?P<wu>(?:{UNIT})\b)"
+)
+
+
+def with_shares(text: str) -> str:
+    """Fractions in digits of a force worked out ('1/4 of 2 n'), and what a force is lowered to."""
+
+    def share(found: re.Match[str]) -> str:
+        part = float(found["c"]) if found["c"] else int(found["a"]) / int(found["b"])
+        return f"{part * in_newtons(found['v'], found['u']):.6g} n"
+
+    def lowered(found: re.Match[str]) -> str:
+        before_n = in_newtons(found["v"], found["vu"] or found["wu"])
+        is_less = in_newtons(found["w"], found["wu"]) < before_n
+        return f"use {found['w']} {found['wu']}" if is_less else found[0]
+
+    return _CHANGED_TO.sub(lowered, _SHARE_OF.sub(share, text))
+
+
 WORKED_OUT = "⇒"
 """Before a force that stands in place of the values before it."""
 

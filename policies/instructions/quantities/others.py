@@ -25,6 +25,10 @@ _OF_OBJECT = re.compile(
     rf"(?: ?(?:to|-|–|and) ?{_ONE})?)"
 )
 """'The egg which needs 4 N'."""
+_LIFTED = re.compile(
+    rf"\b(?:there is )?(?:no need|no reason|not (?:need|have)|not (?:necessary|needed|required|true that (?:it|you) (?:must|has|have))|need not)(?: (?!not\b|never\b)\w+){{0,4}}? (?:below|under|beneath|less than) {_ONE}"
+)
+"""'There is no need to stay below 1 N': a bound that is lifted asks for nothing."""
 _ALLOWED = re.compile(
     r"\b(?:you (?:may|can|could|might|are (?:allowed|free|welcome|permitted) to)|feel free to|"
     r"(?:it is|that is|it would be|i am) (?:perfectly |quite |absolutely )?(?:fine|ok(?:ay)?|al(?:l )?right|no problem|acceptable|happy)(?: with me| by me)?"
@@ -41,7 +45,7 @@ def without_other_forces(text: str) -> str:
     Args:
         text: Plain text, its numbers in digits.
     """
-    text = _ALLOWED.sub("the usual grip will do", text)
+    text = _LIFTED.sub("the usual grip will do", _ALLOWED.sub("the usual grip will do", text))
     for match in reversed(list(_OF_OBJECT.finditer(text))):
         rest = f"{text[: match.start()]} {text[match.end() :]}"
         others = {_kind(each[0]) for each in re.finditer(_OBJECT, rest)}

@@ -10,7 +10,7 @@ import re
 from dataclasses import dataclass, field
 
 from policies.instructions.quantities.bounds import with_plain_bounds
-from policies.instructions.quantities.calculations import unsure_change, worked_out
+from policies.instructions.quantities.calculations import unsure_change, with_shares, worked_out
 from policies.instructions.quantities.elisions import written_out
 from policies.instructions.quantities.factors import denied_factor, read_delta, read_factor
 from policies.instructions.quantities.force import Force
@@ -21,7 +21,12 @@ from policies.instructions.quantities.numerals import in_digits
 from policies.instructions.quantities.others import without_other_forces
 from policies.instructions.quantities.places import AREA, place_words, read_lengths
 from policies.instructions.quantities.tolerances import with_plain_tolerances, without_lone
-from policies.instructions.quantities.unknown_units import undecided_force, unknown_force
+from policies.instructions.quantities.unknown_units import (
+    open_force,
+    undecided_force,
+    unknown_force,
+)
+from policies.instructions.quantities.unproved_least import needs_of_others, unproved_least
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -89,7 +94,8 @@ def read_quantities(text: str) -> Quantities:
     text = re.sub(rf"({NUMBER}) ?\(((?:{UNIT}))\)", r"\1 \2", text)
     text = re.sub(rf"(\d)\.\s*(?=(?:{UNIT})\b)", r"\1 ", text)  # '5. N'
     text = re.sub(rf"(?<![\d.,])0 ?[.,] ?(?=\d{{1,3}}\s*-?\s*(?:{UNIT})\b)", "0.", text)  # '0. 8 N'
-    text = worked_out(text)
+    left_open = open_force(text)
+    text = worked_out(with_shares(text))
     unsure = unsure_change(text)
     text, lone = without_lone(with_plain_tolerances(text))
     text = with_plain_bounds(text)
@@ -102,7 +108,14 @@ def read_quantities(text: str) -> Quantities:
     area = AREA.search(text)
     delta_n, text = read_delta(text)
     forces, denied, text = read_forces(text)
-    unread = unread or undecided_force(plainly, is_bounded=bool(forces))
+    unread = left_open or unread or undecided_force(plainly, is_bounded=bool(forces))
+    if forces and (words := needs_of_others(plainly)):
+        unread = unread or f"{words!r} says what something else takes; say 'use ...' for this grip"
+    kinds = {force.kind for force in forces if not force.is_told}
+    if kinds == {"least"} and (words := unproved_least(plainly)):
+        unread = unread or (
+            f"{words!r} may be a wish or a warning; say 'hold it with at least ...' or 'at most ...'"
+        )
     before_factor = text
     factor, factor_words, text = read_factor(text)
     if factor is not None and not forces:

@@ -47,6 +47,9 @@ _MALFORMED = re.compile(
 )
 
 
+_SAFETY = re.compile(
+    r"\bsafety (?:margin|factor)\b|\b(?:margin|factor) of safety\b|\border of magnitude\b"
+)
 _OF_WEIGHT = re.compile(
     rf"\b(?:twice|double|thrice|triple|half|(?:{NUMBER}|two|three|four|five|ten)\s?(?:times|x)) (?:(?:of|the|its|his|their|that|this) )*"
     r"(?:own |(?:straw)?berry'?s? |fruit'?s? |object'?s? |egg'?s? )?(?:weight|mass)\b(?! (?:of )?(?:#|as|limit))"
@@ -78,6 +81,15 @@ def undecided_force(text: str, *, is_bounded: bool) -> str:
         if match and (re.search(r"\d", match[0]) or not is_bounded)
         else ""
     )
+
+
+def open_force(text: str) -> str:
+    """Why a text leaves a force to a margin or factor of safety; '' for none."""
+    match = _SAFETY.search(text)
+    has_force = re.search(rf"{NUMBER}\s*-?\s*(?:{UNIT})\b", text) is not None
+    if match is None or not has_force:
+        return ""
+    return f"{match[0]!r} leaves the force open; say it as one number, as in '1.5 N'"
 
 
 def unknown_force(text: str) -> str:

@@ -95,3 +95,88 @@ def test_a_multiple_of_a_weight_is_refused(text):
 
 def test_whether_a_force_would_do_is_a_question():
     assert "no request" in read_contract("Would 3 N be ok?", terms(), {}).refused
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "Don´t go over 0.9 N",
+        "Don‘t go over 0.9 N",
+        'DON"T GO OVER 0.9 N',
+        "don;t go over 0.9 N",
+        "don t exceed 0.9 N",
+        "do nt go over 0.9 N",
+        "can t be more than 0.9 N",
+        "It shouldn t exceed 0.9 N",
+        "Not 1 mN above 0.9 N",
+        "Can't you go below 0.9 N?",
+        "Stay away from 0.9 N",
+        "0.9 N should be avoided",
+        "any force except 0.9 N",
+        "⩽ 0.9 N",
+    ],
+)
+def test_a_bound_is_kept_however_its_denial_is_typed(text):
+    force_n, limit_n = band_of(text)
+    assert force_n.high < 0.9
+    assert limit_n < 0.9
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "Exceed 0.9 N and it dies",
+        "Only a fool exceeds 0.9 N",
+        "Beware of exceeding 0.9 N",
+        "Careful: above 0.9 N",
+        "More than 0.9 N is asking for trouble",
+        "nicht more than 0.9 N",
+        "1 N or more would ruin it, so go easy",
+        "Bob uses at least 2 N",
+        "Apples are picked with at least 2 N",
+        "The lid needs 4 N",
+        "2 N with a safety margin of 50 %",
+    ],
+)
+def test_a_force_that_may_be_a_warning_is_no_wish(text):
+    assert read_contract(text, terms(), {}).refused
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "hold it with more than 1 N",
+        "at least 1 N please",
+        "grip it firmly, above 1 N",
+        "Grip the rubber plug with 1 N or more.",
+        "The strawberry needs at least 1 N",
+        "It's wet from the rinse, so use no less than 1 N, okay?",
+    ],
+)
+def test_a_plain_wish_for_more_is_heard(text):
+    assert band_of(text)[0].low >= 1.0
+
+
+@pytest.mark.parametrize(
+    ("text", "middle_n"),
+    [
+        ("use 1/4 of the 2 N", 0.5),
+        ("½ of 2 N", 1.0),
+        ("2/3 of 0.9 N", 0.6),
+        ("Reduce the grip force from 2.5 newtons to half a newton", 0.5),
+        ("Change 2 N to 0.4 N", 0.4),
+    ],
+)
+def test_a_share_or_a_lowered_force_is_worked_out(text, middle_n):
+    force_n, _ = band_of(text)
+    assert (force_n.low + force_n.high) / 2 == pytest.approx(middle_n, rel=0.02)
+
+
+def test_a_bound_of_a_share_bounds_the_share():
+    assert band_of("at most ½ of 2 N")[1] < 1.0
+
+
+def test_neither_bound_is_lost_behind_nothing():
+    force_n, limit_n = band_of("Nothing under 0.3 or over 0.8 N")
+    assert force_n.low == pytest.approx(0.3)
+    assert limit_n < 0.8
