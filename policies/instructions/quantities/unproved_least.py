@@ -38,7 +38,7 @@ _PLAIN = re.compile(
     r"rather|well|steady|steadily|good|properly|proper|solid|solidly|securely|secure|safely|safe|continuous\w*|throughout|least|more|than|over|above|beyond|past|exceed\w*|"
     r"surpass\w*|pass\w*|higher|greater|larger|firmer|tighter|excess|north|or|upwards?|up|all|whole|time|while|when|lifting|big|small|ripe|red|little|next|last|not|no|only|if|"
     r"see|display|scale|gauge|sensor|meter|read|reads|show|shows|slip\w*|fall\w*|drop\w*|slid\w*|loose|lose|fragile|ought|supposed|shall|may|might|down|nothing|less|never|under|below|between|somewhat|comfortably|well|some|it's|"
-    r"at|today|everything|fine|hesitate|afraid|fear|don't|mind|free|feel|wish|require|prefer|please|tool|grasper|robotic|arm|even|still|too|quite|a|bit|min|max|most|limit|upper|lower|bound|end)"
+    r"at|today|everything|fine|don't|free|feel|wish|require|prefer|please|tool|grasper|robotic|arm|even|still|too|quite|a|bit|min|max|most|limit|upper|lower|bound|end)"
 )  # fmt: skip
 _OTHERS = re.compile(
     r"^(?:(?:and|so|then|well|because|since|but) )*(?!(?:and|so|well|because|since|but|please|just|now|then|i|we|you|it|this|that|these|they|what|use|hold|grip|keep|apply|take|make|let|go|give|get|have|there)\b)"
@@ -58,6 +58,12 @@ _HELD = re.compile(
 _WARNED = re.compile(
     rf"\b(?:careful|caution|warning|danger|attention|beware|watch out|mind)[:,!]? (?:of |for |about |with )?(?:{_OVER.pattern})"
 )
+_NOT_MEANT = re.compile(
+    r"\b(?:the )?last thing\b|\b(?:just )?(?:kidding|joking)\b|\bas if\b|\b(?:keep|always|again) exceed\w*|\bi (?:fear|worry(?: about)?|am afraid)\b|"
+    r"\b(?:if|when) you (?:use|exceed|go)\b|\bbroke the\b|\bgripper can\b"
+)
+"""What shows that a force is no wish, wherever it stands."""
+_UNAFRAID = re.compile(r"\b(?:not|never) (?:hesitate|be afraid|fear|mind)(?: to| of)?\b")
 _OTHER_NEEDS = re.compile(
     r"(?:^|(?<=[.;,] )|\b(?:and|but|because) )(?:the|my|our|your|an?|other|most|that) (?:\w+ )?"
     r"(?!straw ?berr|berr|fruit|object|thing|force|grip|squeeze|pressure|strength|one\b|hand|finger|sample|specimen|customer|client|boss|buyer|supervisor|task|job|test|trial|experiment|check|protocol|recipe|contract|spec|rule|target|item|piece|product|workpiece|part\b|it\b|tomato|egg|peg)"
@@ -78,7 +84,7 @@ def unproved_least(text: str) -> str:
     Args:
         text: Plain text, its numbers in digits, in which a least force was read.
     """
-    if warned := _WARNED.search(text):
+    if warned := _WARNED.search(text) or _NOT_MEANT.search(text):
         return warned[0].strip()
     for clause in _CLAUSE.split(text):
         found = _OVER.search(clause or "")
@@ -87,6 +93,7 @@ def unproved_least(text: str) -> str:
             return least[0].strip()
         if found is None or least:
             continue
+        clause = _UNAFRAID.sub(" ", clause)
         words = re.findall(r"[a-z][a-z'-]*", _HELD.sub(r"\1", re.sub(_ONE, " ", clause)))
         if not all(_PLAIN.fullmatch(word) for word in words):
             return found[0].strip()
