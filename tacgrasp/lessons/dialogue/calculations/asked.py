@@ -101,7 +101,7 @@ _AS_RATIO = re.compile(
     r"ratio)(?: between #\d+ and (?:one|#\d+))?(?= |$) ?"
 )
 _WERE_FIRST = re.compile(
-    r"^were ((?:(?:the|our|my|its|this) )?\w+) (?!to\b)"
+    r"^were ((?:the|our|my|its|this) \w+|it|this|that) (?!to\b)"
     r"(?=[^,]+, (?:would|will|is|are|does|could|what|how)\b)"
 )
 """'Were it 0.2 mm deeper, would it be over 0.9 mm?'"""
