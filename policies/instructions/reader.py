@@ -9,9 +9,12 @@ from policies.instructions.english import words
 from policies.instructions.english.spelling import spelled
 from policies.instructions.english.text import plain, sentences
 from policies.instructions.manner import Manner, has_manner, read_manner
+from policies.instructions.other_forces import without_other_forces
 from policies.instructions.own_work import without_own_work
 from policies.instructions.quantities import Quantities, read_quantities
+from policies.instructions.quantities.numerals import in_digits
 from policies.instructions.refusal import refusal_of
+from policies.instructions.unproved_least import needs_of_others, unproved_least
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -121,7 +124,7 @@ _SHORT = re.compile(
 
 def read_request(text: str) -> Request:
     """Read an instruction as a person wrote it."""
-    clean = spelled(plain(text[:MAX_CHARACTERS]))
+    clean = without_other_forces(in_digits(spelled(plain(text[:MAX_CHARACTERS]))))
     numbers = read_quantities(clean)
     verb = _HOLD.search(numbers.rest)
     thing = _THING.search(numbers.rest)
@@ -141,7 +144,18 @@ def _refusal(text: str, clean: str, numbers: Quantities) -> str:
         return f"it is longer than {MAX_CHARACTERS} characters; shorten it"
     if not re.search(r"[^\W_]", clean):
         return "there are no words; say what to grasp, for example 'Pick the strawberry gently'"
-    return refusal_of(numbers.rest, clean) or _no_english(clean) or _nothing_asked(numbers)
+    reason = refusal_of(numbers.rest, clean) or _no_english(clean) or _nothing_asked(numbers)
+    return reason or _unproved(clean, numbers)
+
+
+def _unproved(clean: str, numbers: Quantities) -> str:
+    """Reason to refuse a force that may be no wish; '' for none."""
+    if numbers.forces and (words := needs_of_others(clean)):
+        return f"{words!r} says what something else takes; say 'use ...' for this grip"
+    kinds = {force.kind for force in numbers.forces if not force.is_told}
+    if kinds == {"least"} and (words := unproved_least(clean)):
+        return f"{words!r} may be a wish or a warning; say 'hold it with at least ...' or 'at most ...'"
+    return ""
 
 
 def _no_english(text: str) -> str:

@@ -18,7 +18,6 @@ from policies.instructions.quantities.force_units import NUMBER, UNIT, number
 from policies.instructions.quantities.forces import read_forces
 from policies.instructions.quantities.masses import Masses, without_masses
 from policies.instructions.quantities.numerals import in_digits
-from policies.instructions.quantities.others import without_other_forces
 from policies.instructions.quantities.places import AREA, place_words, read_lengths
 from policies.instructions.quantities.tolerances import with_plain_tolerances, without_lone
 from policies.instructions.quantities.unknown_units import (
@@ -26,7 +25,6 @@ from policies.instructions.quantities.unknown_units import (
     undecided_force,
     unknown_force,
 )
-from policies.instructions.quantities.unproved_least import needs_of_others, unproved_least
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -88,7 +86,7 @@ def read_quantities(text: str) -> Quantities:
     """Read the numbers of a plain text (``policies.instructions.english.text.plain``)."""
     text = _ELLIPSIS.sub(r"no \2 than \3 \1", in_digits(text))
     text, masses = without_masses(text)
-    text = re.sub(rf"({NUMBER}), (?=newtons?\b)", r"\1 ", without_other_forces(text))
+    text = re.sub(rf"({NUMBER}), (?=newtons?\b)", r"\1 ", text)
     text = re.sub(r"(?<=\d)['\u00a0\u202f ](?=\d{3}\b(?! ?mm))", "", text)  # 1 400 mN
     text = re.sub(rf"({NUMBER})\s?-?ish\b", r"\1", text)
     text = re.sub(rf"({NUMBER}) ?\(((?:{UNIT}))\)", r"\1 \2", text)
@@ -109,13 +107,6 @@ def read_quantities(text: str) -> Quantities:
     delta_n, text = read_delta(text)
     forces, denied, text = read_forces(text)
     unread = left_open or unread or undecided_force(plainly, is_bounded=bool(forces))
-    if forces and (words := needs_of_others(plainly)):
-        unread = unread or f"{words!r} says what something else takes; say 'use ...' for this grip"
-    kinds = {force.kind for force in forces if not force.is_told}
-    if kinds == {"least"} and (words := unproved_least(plainly)):
-        unread = unread or (
-            f"{words!r} may be a wish or a warning; say 'hold it with at least ...' or 'at most ...'"
-        )
     before_factor = text
     factor, factor_words, text = read_factor(text)
     if factor is not None and not forces:

@@ -3,7 +3,7 @@
 import pytest
 
 from policies.contract import read_contract
-from policies.instructions.quantities.others import without_other_forces
+from policies.instructions.other_forces import without_other_forces
 from tests.fakes.contracts import terms
 from tests.policies.instructions.test_quantities import forces
 
