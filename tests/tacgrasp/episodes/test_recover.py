@@ -331,5 +331,5 @@ def test_a_file_that_is_no_mcap_is_refused(tmp_path: Path, content: bytes, messa
 def test_a_path_without_a_file_is_named(tmp_path: Path) -> None:
     with pytest.raises(EpisodeError, match=r"no\.mcap does not exist; `tacgrasp episodes ls`"):
         read_episode(tmp_path / "no.mcap")
-    with pytest.raises(EpisodeError, match=r"can't read .*directory"):
+    with pytest.raises(EpisodeError, match=r"is a folder; name an episode in it"):
         read_episode(tmp_path)
