@@ -22,6 +22,18 @@ MAX_NUMBERS = 8_000_000
 _MAX_ARRAYS = 1000
 _MAX_HEADER_BYTES = 10_000
 _ENTRY = b"PK\x01\x02"
+_DAMAGED = (
+    zipfile.BadZipFile,
+    zlib.error,
+    EOFError,
+    NotImplementedError,
+    OSError,
+    OverflowError,
+    RuntimeError,
+    ValueError,
+)
+"""Whatever zipfile raises for a damaged or encrypted archive."""
+_AS_NUMPY = (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED)
 _ARRAY_HEADERS = {
     (1, 0): np.lib.format.read_array_header_1_0,
     (2, 0): np.lib.format.read_array_header_2_0,
@@ -61,49 +73,41 @@ def read_npz(data: bytes) -> NDArray[np.float64]:
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
             return read_npy(_member(archive))
-    except (
-        zipfile.BadZipFile,
-        zlib.error,
-        EOFError,
-        NotImplementedError,
-        OSError,
-        OverflowError,
-        RuntimeError,
-        ValueError,
-    ) as error:  # whatever zipfile raises for a damaged or encrypted archive
+    except _DAMAGED as error:
         raise TouchError(f"not a whole .npz of numbers: {error}") from None
 
 
 def sensor_in_npz(data: bytes) -> str:
-    """The name of the sensor that a .npz file is of; '' where it says none."""
+    """The name of the sensor that a .npz file is of, which ``read_npz`` has read; '' for none."""
     try:
-        with zipfile.ZipFile(io.BytesIO(data)) as archive, archive.open("sensor.npy") as file:
-            head = file.read(_MAX_HEADER_BYTES)
-        stream = io.BytesIO(head)
-        shape, _, dtype = _ARRAY_HEADERS[np.lib.format.read_magic(stream)](stream)
-        if shape != () or dtype.kind != "U" or len(head) < stream.tell() + dtype.itemsize:
-            return ""
-        return str(np.frombuffer(head, dtype=dtype, count=1, offset=stream.tell())[0])
-    except (zipfile.BadZipFile, zlib.error, EOFError, KeyError, NotImplementedError, OSError,
-            OverflowError, RuntimeError, ValueError, SyntaxError):  # fmt: skip
-        return ""  # what is damaged is refused as the array is read
+        with zipfile.ZipFile(io.BytesIO(data)) as archive:
+            info = archive.getinfo("sensor.npy")
+            if info.compress_type not in _AS_NUMPY:
+                return ""
+            with archive.open(info) as file:
+                head = file.read(_MAX_HEADER_BYTES)
+        shape, _, dtype, start = _any_header(head)
+    except (*_DAMAGED, KeyError, TouchError):
+        return ""
+    if shape != () or dtype.kind != "U" or len(head) < start + dtype.itemsize:
+        return ""
+    return str(np.frombuffer(head, dtype=dtype, count=1, offset=start)[0])
 
 
 def _member(archive: zipfile.ZipFile) -> bytes:
     """The bytes of the one array, as far as ``MAX_NUMBERS`` of them can need."""
     entries = {info.filename.removesuffix(".npy"): info for info in archive.infolist()}
     names = list(entries)
-    named = [n for n in ("points_mm", "seen_mm", "height_mm") if n in names]
-    if "points_mm" not in named:
-        named = named[:1]
-    candidates = named or names
+    points = [n for n in names if n == "points_mm"]
+    heights = [n for n in ("seen_mm", "height_mm") if n in names][:1]
+    candidates = [*points, *heights] or names
     if len(candidates) != 1:
         raise TouchError(
             "expected one array, or one named points_mm or height_mm; the file has "
             f"{', '.join(names[:10]) or 'none'}"
         )
     info = entries[candidates[0]]
-    if info.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
+    if info.compress_type not in _AS_NUMPY:
         raise TouchError(
             "not a whole .npz of numbers: an array is neither stored nor deflated, as numpy "
             "writes them; save it with numpy.savez or numpy.savez_compressed"
@@ -120,7 +124,15 @@ def _member(archive: zipfile.ZipFile) -> bytes:
 
 
 def _header(data: bytes) -> tuple[tuple[int, ...], bool, np.dtype[np.generic], int]:
-    """Shape, order, type and start of the array in a .npy file; no array is made."""
+    """Shape, order, type and start of an array of real numbers in a .npy file; none is made."""
+    shape, fortran_order, dtype, start = _any_header(data)
+    if dtype.kind not in "fiu":
+        raise TouchError(f"expected real numbers in the .npy array, got {dtype}")
+    return shape, fortran_order, dtype, start
+
+
+def _any_header(data: bytes) -> tuple[tuple[int, ...], bool, np.dtype[np.generic], int]:
+    """The same of an array of anything."""
     file = io.BytesIO(data[:_MAX_HEADER_BYTES])
     try:
         version = np.lib.format.read_magic(file)
@@ -132,8 +144,6 @@ def _header(data: bytes) -> tuple[tuple[int, ...], bool, np.dtype[np.generic], i
         raise
     except Exception as error:  # numpy evaluates the header's text, and any error may come of it
         raise TouchError(f"not a whole .npy array of numbers: {error}") from None
-    if dtype.kind not in "fiu":
-        raise TouchError(f"expected real numbers in the .npy array, got {dtype}")
     return shape, fortran_order, dtype, file.tell()
 
 

@@ -157,9 +157,10 @@ def _read_array(path: Path, sensor: SensorSpec) -> NDArray[np.float64]:
     try:
         data = path.read_bytes()
         with path_in_errors(path):
+            array = reader(data)
             if path.suffix.lower() == ".npz":
                 _check_sensor(sensor_in_npz(data), sensor)
-            return reader(data)
+            return array
     except OSError as error:
         raise TouchError(f"{path} can't be read: {error.strerror or error}") from None
 

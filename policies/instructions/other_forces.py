@@ -8,32 +8,34 @@ from __future__ import annotations
 
 import re
 
-from policies.instructions.english import words
 from policies.instructions.quantities.force import MARK
-from policies.instructions.quantities.force_units import LOOSE, NUMBER, UNIT
+from policies.instructions.quantities.force_units import ONE_FORCE
+from policies.instructions.quantities.masses import OBJECT
 
-_ONE = rf"{NUMBER}\s*-?\s*(?:{UNIT}|{LOOSE})\b"
-_OBJECT = rf"(?:{words.any_of('fruit')}|plums?|apples?|kiwis?|figs?)\b"
 _TAKES = (
     r"(?:needs?|needed|takes?|took|wants?|wanted|requires?|required|gets?|got|calls? for|likes?|"
     r"(?:is|was|were|are) (?:held|gripped|picked|done|fine|happy|good|set|run) (?:up )?(?:with|at))"
 )
 _OF_OBJECT = re.compile(
-    rf"\b(?P<object>{_OBJECT})(?: (?:here|there|before|yesterday|earlier|over there))?,? "
+    rf"\b(?P<object>{OBJECT})(?: (?:here|there|before|yesterday|earlier|over there))?,? "
     rf"(?:(?:which|that|it|usually|always|normally|only|really|just) )*{_TAKES} "
-    rf"(?:(?:about|around|roughly|some|only|just|at least|at most|up to|a|an) )*(?P<force>{_ONE}"
-    rf"(?: ?(?:to|-|–|and) ?{_ONE})?)"
+    rf"(?:(?:about|around|roughly|some|only|just|at least|at most|up to|a|an) )*(?P<force>{ONE_FORCE}"
+    rf"(?: ?(?:to|-|–|and) ?{ONE_FORCE})?)"
 )
 """'The egg which needs 4 N'."""
+_ANY = re.compile(r"specimen|sample|object|item|piece|thing\w*|target|ones?")
+"""What may be any object: 'pick this one, the egg needs 3 N' is about one."""
+_THAT_TOOK = re.compile(r"ones?,? (?:that|which) (?:took|needed|wanted|required|got|was|were)\b")
+"""'Riper than the one that took 2 N'."""
 _LIFTED = re.compile(
-    rf"\b(?:there is )?(?:no need|no reason|not (?:need|have)|not (?:necessary|needed|required|true that (?:it|you) (?:must|has|have))|need not)(?: (?!not\b|never\b)\w+){{0,4}}? (?:below|under|beneath|less than) {_ONE}"
+    rf"\b(?:there is )?(?:no need|no reason|not (?:need|have)|not (?:necessary|needed|required|true that (?:it|you) (?:must|has|have))|need not)(?: (?!not\b|never\b)\w+){{0,4}}? (?:below|under|beneath|less than) {ONE_FORCE}"
 )
 """'There is no need to stay below 1 N': a bound that is lifted asks for nothing."""
 _ALLOWED = re.compile(
     r"\b(?:you (?:may|can|could|might|are (?:allowed|free|welcome|permitted) to)|feel free to|"
     r"(?:it is|that is|it would be|i am) (?:perfectly |quite |absolutely )?(?:fine|ok(?:ay)?|al(?:l )?right|no problem|acceptable|happy)(?: with me| by me)?"
     r" (?:if (?:it|you|the (?:force|grip)) |to |for you to )|(?:i|we) do not (?:mind|care) if (?:it|you|the (?:force|grip)) )"
-    rf" ?(?:(?!not\b|never\b|only\b|no\b)\w+ ){{0,4}}?(?:over|above|beyond|past|more than|exceed(?:s|ing)?|higher than) {_ONE}"
+    rf" ?(?:(?!not\b|never\b|only\b|no\b)\w+ ){{0,4}}?(?:over|above|beyond|past|more than|exceed(?:s|ing)?|higher than) {ONE_FORCE}"
     r"(?:,? (?:if|when|where|as) (?:\w+ )?(?:you )?(?:need|needed|necessary|must|have|like|want|required)(?: (?:to|be))?\b)?"
 )
 """'You may go over 2 N if you need to': what is allowed is not asked for."""
@@ -48,8 +50,11 @@ def without_other_forces(text: str) -> str:
     text = _LIFTED.sub("the usual grip will do", _ALLOWED.sub("the usual grip will do", text))
     for match in reversed(list(_OF_OBJECT.finditer(text))):
         rest = f"{text[: match.start()]} {text[match.end() :]}"
-        others = {_kind(each[0]) for each in re.finditer(_OBJECT, rest)}
-        if others and _kind(match["object"]) not in others:
+        named = (each[0] for each in re.finditer(OBJECT, rest))
+        others = {_kind(name) for name in named if not _ANY.fullmatch(name)}
+        is_named = not _ANY.fullmatch(match["object"])
+        is_another = is_named and others and _kind(match["object"]) not in others
+        if is_another or _THAT_TOOK.match(match[0]):
             text = f"{text[: match.start('force')]}{MARK}{text[match.end('force') :]}"
     return text
 

@@ -11,15 +11,14 @@ from __future__ import annotations
 import re
 
 from policies.instructions.english import words
-from policies.instructions.quantities.force_units import LOOSE, NUMBER, UNIT
+from policies.instructions.quantities.force_units import ONE_FORCE
 
-_ONE = rf"{NUMBER}\s*-?\s*(?:{UNIT}|{LOOSE})\b"
 _OVER = re.compile(
     rf"(?:\b(?:more than|over|above|beyond|past|exceed\w*|surpass\w*|pass(?:es|ing)?|(?:higher|greater|harder|firmer|tighter|stronger|larger) than|in excess of|north of)"
-    rf"|>)(?: (?:a|an|the|about|around|roughly|force of|total of))* ?{_ONE}|{_ONE},? (?:or|and) (?:more|above|over|higher|up|upwards?|greater|harder|firmer|beyond)\b"
+    rf"|>)(?: (?:a|an|the|about|around|roughly|force of|total of))* ?{ONE_FORCE}|{ONE_FORCE},? (?:or|and) (?:more|above|over|higher|up|upwards?|greater|harder|firmer|beyond)\b"
 )
 _LEAST = re.compile(
-    rf"\b(?:at (?:the )?(?:very |absolute )?least|(?:a )?minimum(?: of)?|no less than) (?:about |around )?{_ONE}"
+    rf"\b(?:at (?:the )?(?:very |absolute )?least|(?:a )?minimum(?: of)?|no less than) (?:about |around )?{ONE_FORCE}"
 )
 _CLAUSE = re.compile(
     r"[.;:!?,()](?!\d)|\s[-–—]+\s|\b(?:but|because|since|so that|otherwise|or else|until|till|while|whatever happens)\b"
@@ -52,7 +51,7 @@ _UNAFRAID = re.compile(r"\b(?:not|never) (?:hesitate|be afraid|fear|mind)(?: to|
 _OTHER_NEEDS = re.compile(
     r"(?:^|(?<=[.;,] )|\b(?:and|but|because) )(?:the|my|our|your|an?|other|most|that) (?:\w+ )?"
     rf"(?!{_OURS}|{_CLIENTS})"
-    rf"[a-z]+ (?:usually |always |only |really |just )?(?:needs?|takes?|took|wants?|requires?|required|pulls?(?: with)?|saturates? at|clips? at|stalls? at|squeezes?(?: at| with)?) (?:about |around |only |just |at least )?{_ONE}"
+    rf"[a-z]+ (?:usually |always |only |really |just )?(?:needs?|takes?|took|wants?|requires?|required|pulls?(?: with)?|saturates? at|clips? at|stalls? at|squeezes?(?: at| with)?) (?:about |around |only |just |at least )?{ONE_FORCE}"
 )
 """'The lid needs 4 N'."""
 
@@ -79,7 +78,7 @@ def unproved_least(text: str) -> str:
         if found is None or least:
             continue
         clause = _UNAFRAID.sub(" ", clause)
-        said = re.findall(r"[a-z][a-z'-]*", _HELD.sub(r"\1", re.sub(_ONE, " ", clause)))
+        said = re.findall(r"[a-z][a-z'-]*", _HELD.sub(r"\1", re.sub(ONE_FORCE, " ", clause)))
         if not _PLAIN.issuperset(said):
             return found[0].strip()
     return ""

@@ -61,6 +61,14 @@ def force_limit_problem(max_force_n: float, device_n: float) -> str:
     )
 
 
+def force_limit_finding(max_force_n: float, device_n: float) -> Finding:
+    """Whether a rig's largest force fits its gripper; the arguments of ``force_limit_problem``."""
+    problem = force_limit_problem(max_force_n, device_n)
+    detail = f"{max_force_n:g} N at most, of {device_n:.2f} N that the gripper can make"
+    advice = f"a run is refused: {problem}"
+    return finding("gripper", "largest force", not problem, detail, advice)
+
+
 def read_durations_ms(read: Callable[[], object], count: int) -> tuple[float, float, float]:
     """Median, 99 % quantile and maximum of the durations of ``count`` reads [ms]."""
     durations_ms = []

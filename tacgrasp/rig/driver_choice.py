@@ -13,7 +13,7 @@ from cltp.errors import TouchError
 from primitives.devices import Arm, Gripper, Pose
 from primitives.errors import RobotError
 from tacgrasp.config.hardware import ArmSettings, GripperSettings
-from tacgrasp.drivers.check import Finding, finding, force_limit_problem
+from tacgrasp.drivers.check import Finding, finding, force_limit_finding
 from tacgrasp.drivers.dynamixel.settings import DynamixelSettings
 from tacgrasp.drivers.plugin import (
     PluginArmSettings,
@@ -127,9 +127,7 @@ def gripper_findings(
         from tacgrasp.drivers.dynamixel import gripper
 
         return gripper.check(settings, first_force_n=first_force_n, max_force_n=max_force_n)
-    problem = force_limit_problem(max_force_n, settings.max_force_n)
-    detail = f"{max_force_n:g} N at most, of {settings.max_force_n:g} N"
-    force = finding("gripper", "largest force", not problem, detail, f"a run is refused: {problem}")
+    force = force_limit_finding(max_force_n, settings.max_force_n)
     return [*check_plugin("grippers", settings), force]
 
 

@@ -8,16 +8,19 @@ import unicodedata
 _MARKS = "´‘’ʼ′‵＇ʹ`"
 """What people and keyboards write for an apostrophe."""
 
+_STEMS = "do|does|did|is|are|was|were|have|has|had|must|should|could|would|need|might"
+"""Verbs that 'n't' denies."""
+
 _CONTRACTIONS = (
-    (r"\b(do|does|did|is|are|was|were|have|has|had|must|should|could|would|need|might|ca|wo|sha|ai) ?n ?['\";“”] ?t\b", r"\1n't"),
-    (r"\b(do|does|did|is|are|was|were|have|has|had|must|should|could|would|need|might|ca|wo|sha|ai)(?: nt|n t)\b", r"\1n't"),
+    (rf"\b({_STEMS}|ca|wo|sha|ai) ?n ?['\";“”] ?t\b", r"\1n't"),
+    (rf"\b({_STEMS}|ca|wo|sha|ai)(?: nt|n t)\b", r"\1n't"),
     (r"\bdnt\b|\bdon(?= (?:go|exceed|use|squeeze|press|apply|let|hold|grip|be|push|put|get|take|give|make|pass)\b)", "do not"),
     (r"\bcann'?t\b", "can not"),
     (r"\bwon['’]?t\b", "will not"),
     (r"\bcan['’]t\b|\bcannot\b|\bcant\b", "can not"),
     (r"\bshan['’]?t\b", "shall not"),
     (r"\bain['’]?t\b", "is not"),
-    (r"\b(do|does|did|is|are|was|were|have|has|had|must|should|could|would|need|might)n['’]t\b", r"\1 not"),
+    (rf"\b({_STEMS})n['’]t\b", r"\1 not"),
     (r"\b(do|does|did|is|are|was|were|must|should|could|would|need)nt\b", r"\1 not"),
     (r"\blet['’]s\b", "let us"),
     (r"\b(i|you|we|they|it|he|she|that|there|who|what)['’](?:ll)\b", r"\1 will"),

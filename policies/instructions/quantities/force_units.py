@@ -43,6 +43,9 @@ NUMBER = (
     + r"(?:\d{1,3}(?:,\d{3})+(?:\.\d+)?|\d{1,12}(?:[.,]\d{1,12})?|\.\d{1,12})(?:e[+-]?\d{1,4})?(?![.,]?\d)"
 )
 
+ONE_FORCE = rf"{NUMBER}\s*-?\s*(?:{UNIT}|{LOOSE})\b"
+"""A number and its unit, which may be one of mass."""
+
 
 def in_newtons(digits: str, unit: str) -> float:
     """A force of so many of a unit [N].

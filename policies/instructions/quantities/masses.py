@@ -34,9 +34,9 @@ _ONE = (
 """A mass; of a range the larger end."""
 
 _PRONOUN = r"(?:it|this|that|they|these|those)"
-_OBJECT = rf"(?!{_PRONOUN}\b)(?:{words.any_of('fruit')}|plums?|apples?|kiwis?|figs?)\b"
-_NOUN = rf"(?!{_PRONOUN}\b)(?:\w+ ){{0,2}}?{_OBJECT}"
-_KIND = rf"(?:(?!(?:on|onto|of|to|for|with|in|at|by|from|and|or|the|an?|{_PRONOUN}|my|our|your)\b)\w+ ){{0,2}}?{_OBJECT}"
+OBJECT = rf"(?!{_PRONOUN}\b)(?:{words.any_of('fruit')}|plums?|apples?|kiwis?|figs?)\b"
+_NOUN = rf"(?!{_PRONOUN}\b)(?:\w+ ){{0,2}}?{OBJECT}"
+_KIND = rf"(?:(?!(?:on|onto|of|to|for|with|in|at|by|from|and|or|the|an?|{_PRONOUN}|my|our|your)\b)\w+ ){{0,2}}?{OBJECT}"
 """An object without an article: '15 gram red strawberry', but not '200 grams on the egg'."""
 _FORCES = (
     r"(?:force|grip|press|squeez|push|pinch|hold|clamp|load|limit|max|min|bound|ceiling|cap\b|floor|range|band|top|end|peak|thresh|"
@@ -97,7 +97,7 @@ def without_masses(text: str) -> tuple[str, Masses]:
     rest, end, last, last_g = "", 0, "", 0.0
     for match in _found(text):
         before, mass_g = text[end : match.start("a")], _grams(match)
-        named = re.findall(rf"\b(?:\w+ )?{_OBJECT}", before)
+        named = re.findall(rf"\b(?:\w+ )?{OBJECT}", before)
         subject = named[-1] if named else last
         if match.re is _STATED and last_g and subject == last:
             is_other = abs(last_g / mass_g - 1) > SAME

@@ -86,8 +86,7 @@ def undecided_force(text: str, *, is_bounded: bool) -> str:
 def open_force(text: str) -> str:
     """Why a text leaves a force to a margin or factor of safety; '' for none."""
     match = _SAFETY.search(text)
-    has_force = re.search(rf"{NUMBER}\s*-?\s*(?:{UNIT})\b", text) is not None
-    if match is None or not has_force:
+    if match is None or not _has_force(text):
         return ""
     return f"{match[0]!r} leaves the force open; say it as one number, as in '1.5 N'"
 
@@ -114,13 +113,16 @@ def unknown_force(text: str) -> str:
         return f"{match[0]!r} is a formula; name the force as one number, as in '1.5 N'"
     if match := _DERIVED.search(text):
         return _reason(match)
-    has_force = re.search(rf"{NUMBER}\s*-?\s*(?:{UNIT})\b", text) is not None
-    for pattern in (_ALONE, _BOUNDED) if has_force else (_ALONE, _BOUNDED, _VALUED):
+    for pattern in (_ALONE, _BOUNDED) if _has_force(text) else (_ALONE, _BOUNDED, _VALUED):
         for match in pattern.finditer(text):
             unit = match["unit"]
             if not {unit, unit.removesuffix("s")} & _WORDS and not _OTHER.fullmatch(unit):
                 return _reason(match)
     return ""
+
+
+def _has_force(text: str) -> bool:
+    return re.search(rf"{NUMBER}\s*-?\s*(?:{UNIT})\b", text) is not None
 
 
 def _reason(match: re.Match[str]) -> str:

@@ -21,7 +21,7 @@ from primitives.errors import LimitError, RobotError
 from tacgrasp.drivers.check import (
     Finding,
     finding,
-    force_limit_problem,
+    force_limit_finding,
     read_durations_ms,
 )
 from tacgrasp.drivers.dynamixel import registers as reg
@@ -280,10 +280,7 @@ def _forces(
     if first_force_n is not None:
         found.append(_first_force(settings, calibration, first_force_n))
     if max_force_n is not None:
-        device_n = _largest_n(calibration, settings)
-        problem = force_limit_problem(max_force_n, device_n)
-        detail = f"{max_force_n:g} N at most, of {device_n:.2f} N that the gripper can make"
-        found.append(_finding("largest force", not problem, detail, f"a run is refused: {problem}"))
+        found.append(force_limit_finding(max_force_n, _largest_n(calibration, settings)))
     return found
 
 

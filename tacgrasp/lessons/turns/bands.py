@@ -72,7 +72,7 @@ def about_the_band(question: str, meant: Meaning | None) -> Iterator[str]:
     )
     own = re.sub(r"\bof (?:it|them)\b", "of the band", own)
     own = re.sub(
-        r"\b(?:that|this|its) (?=mid)middle|\b(?:that|this) (?:midpoint|cent(?:er|re))\b",
+        r"\b(?:that|this|its) middle|\b(?:that|this) (?:midpoint|cent(?:er|re))\b",
         "the middle of the band",
         own,
     )

@@ -117,7 +117,10 @@ _WHAT_LIKE = re.compile(
     re.I,
 )
 _IN_A_WORD = re.compile(
-    r"(?:in |as )?(?:one|a|a single|the) word(?: for (?:that|it|this))?[?.! ]*", re.I
+    r"(?:(?:in |as )?(?:one|a|a single|the) word(?: for (?:that|it|this))?|"
+    r"(?:is|would) (?:that|it|this) (?:be )?(?:a lot|much|little|a little|big|high|low|normal|"
+    r"large|small)(?: or (?:not|little|small|low))?)[?.! ]*",
+    re.I,
 )
 _IN_PLACE = re.compile(r"(?:in|on|at) the [^?]+\?", re.I)
 
@@ -138,7 +141,7 @@ def what_like(question: str) -> str:
 
 
 def in_a_word(question: str, meant: Meaning | None) -> str:
-    """'One word for that?' behind a depth or an area."""
+    """'One word for that?' and 'Is that a lot?' behind a depth or an area."""
     is_word = _IN_A_WORD.fullmatch(without_lead(question)) is not None
     name = meant.quantity if isinstance(meant, Amount) else ""
     return f"What is the {name} in one word?" if is_word and name in ("depth", "area") else ""
@@ -160,20 +163,6 @@ def free_part(question: str, meant: Meaning | None) -> str:
         return ""
     unit = {"%": "percent"}.get(meant.unit, meant.unit)
     return f"How much of the pad stays free in {unit}?"
-
-
-_IS_A_LOT = re.compile(
-    r"(?:is|would) (?:that|it|this) (?:be )?(?:a lot|much|little|a little|big|high|low|normal|"
-    r"large|small)(?: or (?:not|little|small|low))?[?.! ]*",
-    re.I,
-)
-
-
-def is_a_lot(question: str, meant: Meaning | None) -> str:
-    """'Is that a lot?' behind a depth or an area, which have words for how much."""
-    name = meant.quantity if isinstance(meant, Amount) else ""
-    asked = name in ("depth", "area") and _IS_A_LOT.fullmatch(without_lead(question))
-    return f"What is the {name} in one word?" if asked else ""
 
 
 def in_that_place(question: str, meant: Meaning | None) -> str:

@@ -74,7 +74,13 @@ def test_the_force_of_another_object_is_not_this_ones(text):
 
 
 @pytest.mark.parametrize(
-    "text", ["the egg needs 3 N", "pick up the berry, the strawberry needs 3 N"]
+    "text",
+    [
+        "the egg needs 3 N",
+        "pick up the berry, the strawberry needs 3 N",
+        "pick this one up, the egg needs 3 N",
+        "hold the thing, the object needs 3 N",
+    ],
 )
 def test_the_force_of_the_only_object_is_meant(text):
     assert without_other_forces(text) == text
