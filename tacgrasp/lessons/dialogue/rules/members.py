@@ -43,7 +43,7 @@ def verdict_of(question: str) -> Calculated | None:
 
     None of any other question.
     """
-    words = " ".join(re.findall(r"[a-z]+(?:-[a-z]+)?|\d+", question.lower()))
+    words = _bare(question)
     if _VERDICT.search(words) is None:
         return None
     bare = re.sub(r"^yes or no | (?:yes or no|either one|true or false)$", "", words)
@@ -52,7 +52,7 @@ def verdict_of(question: str) -> Calculated | None:
 
 def member_of(question: str) -> Calculated | None:
     """Whether what is felt is one of the named classes; None of any other question."""
-    words = " ".join(re.findall(r"[a-z]+(?:-[a-z]+)?|\d+", question.lower()))
+    words = _bare(question)
     if not _ASKS_YES.match(words) or not _ONE_OF.search(words):
         return None
     is_joined = " or " in words or "either of" in words
@@ -66,3 +66,8 @@ def member_of(question: str) -> Calculated | None:
                 return None
             return Calculated(truth=f"{name} in [{', '.join(map(repr, named))}]", unit=None)
     return None
+
+
+def _bare(question: str) -> str:
+    """The words and numbers of a question."""
+    return " ".join(re.findall(r"[a-z]+(?:-[a-z]+)?|\d+", question.lower()))

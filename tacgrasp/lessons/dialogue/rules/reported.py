@@ -14,6 +14,7 @@ from __future__ import annotations
 import re
 
 from policies.instructions.quantities.numerals import in_digits
+from tacgrasp.lessons.dialogue.calculations.quantity_names import unit_of
 from tacgrasp.lessons.dialogue.meaning import Meaning
 from tacgrasp.lessons.dialogue.query import asked_text, read_query
 from tacgrasp.lessons.dialogue.written_units import numbers_in_units
@@ -26,15 +27,12 @@ _REPORTS = (
 _RIGHT = r"(?:right|correct|true|accurate|so|fine|ok(?:ay)?|plausible|credible)"
 _WRONG = r"(?:wrong|false|incorrect|mistaken|off|lying|untrue|inaccurate)"
 _WHO = r"(?:that|this|it|he|she|they|the (?:value|figure|number|reading|entry|log|report))"
+_VERDICT = re.compile(rf"\b(?:{_RIGHT}|{_WRONG}|sign|confirm|accept|trust|believe|agree)\b")
+"""What such a question has in any case: most others are told from it by this alone."""
 _NUMBER = re.compile(
-    r"(?<![\w.])\d+(?:\.\d+)? ?(?:(?P<force>m?n|newtons?|millinewtons?)|(?P<depth>mm|µm|um|"
+    r"(?<![\w.])\d+(?:\.\d+)? ?(?P<unit>(?P<force>m?n|newtons?|millinewtons?)|(?P<depth>mm|µm|um|"
     r"microns?|millimet(?:re|er)s?|micromet(?:re|er)s?)|(?P<area>%|percent))(?![\w²³/])"
 )
-_UNIT = {
-    "n": "N", "newton": "N", "mn": "mN", "millinewton": "mN", "mm": "mm", "millimetre": "mm",
-    "millimeter": "mm", "µm": "µm", "um": "µm", "micron": "µm", "micrometre": "µm",
-    "micrometer": "µm", "%": "%", "percent": "%",
-}  # fmt: skip
 _TOLD = re.compile(
     rf"(?:[a-z' ]+ {_REPORTS} .+?[.,;:–—-]+ *(?:so |and )?(?:(?:is|are|was) {_WHO} (?:{_RIGHT}|"
     rf"(?P<a>{_WRONG}))|{_RIGHT}|(?P<b>{_WRONG})|can i (?:sign|confirm|accept|trust|believe) "
@@ -66,14 +64,17 @@ _NOW = re.compile(r"\d+ ?(?:g|grams?|kg)\b.*\b(?:ever|always)\b")
 
 def reported(question: str) -> Meaning | None:
     """Whether a number that somebody reports is about what is felt; None of other questions."""
-    words = " ".join(in_digits(question.lower()).replace("’", "'").split())
-    if (told := _TOLD.fullmatch(words)) is None:
+    words = " ".join(question.lower().replace("’", "'").split())
+    if _VERDICT.search(words) is None:
+        return None
+    words = in_digits(words)
+    if (told := _TOLD.fullmatch(words)) is None or _COMPARES.search(words):
         return None
     numbers = list(_NUMBER.finditer(words))
-    quantity = numbers[0].lastgroup if len(numbers) == 1 else None
-    if quantity in (None, "area") or _COMPARES.search(words):
+    if len(numbers) != 1 or numbers[0]["area"]:
         return None
-    unit = _UNIT[re.sub(r"^[\d. ]+", "", numbers[0][0]).removesuffix("s")]
+    quantity = "force" if numbers[0]["force"] else "depth"
+    unit = unit_of(numbers[0]["unit"])
     denied = "not " if any(told.groups()) else ""
     query = f"check {denied}{quantity} about #1 {unit}."
     asked = asked_text(question)
