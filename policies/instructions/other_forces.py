@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 
 from policies.instructions.quantities.force import MARK
-from policies.instructions.quantities.force_units import ONE_FORCE
+from policies.instructions.quantities.force_units import NUMBER, ONE_FORCE, UNIT
 from policies.instructions.quantities.masses import OBJECT
 
 _TAKES = (
@@ -23,6 +23,16 @@ _OF_OBJECT = re.compile(
     rf"(?: ?(?:to|-|–|and) ?{ONE_FORCE})?)"
 )
 """'The egg which needs 4 N'."""
+_NEWTONS = rf"{NUMBER}\s*-?\s*(?:{UNIT})\b"
+_WEIGHT = re.compile(
+    rf"\b(?:weigh(?:s|ed|ing)?(?: in)?(?: at)?|weight(?: of| is| was|:)?|label(?:l?ed)?|marked|engraved|stamped)(?: (?:about|around|roughly|only|just))? ?['\"]?(?P<force>{_NEWTONS})"
+    rf"|(?P<other>{_NEWTONS})['\"]? (?:(?:test|dead|brass|steel|calibration) )?(?:weights?|springs?|dumb-?bells?|magnets?|load cells?|sensors?|(?:force )?gauges?)\b"
+)
+"""'The apple that weighs 1.5 N', 'beside the 2 N weight'."""
+_PART = re.compile(
+    rf"\b(?:stem|stalk|lid|cap|cork|label|peel|leaf|leaves|calyx|sticker|button|key|switch|latch|zip)s? (?:\w+ )?(?:comes?|came|pulls?|pulled|peels?|breaks?|snaps?|pops?|detach\w*|separat\w*|opens?|clicks?|holds?|needs|takes|resists)\b[^.;,#]{{0,30}}?(?P<force>{ONE_FORCE})"
+)
+"""'The stem comes off with 2.5 N'."""
 _ANY = re.compile(r"specimen|sample|object|item|piece|thing\w*|target|ones?")
 """What may be any object: 'pick this one, the egg needs 3 N' is about one."""
 _THAT_TOOK = re.compile(r"ones?,? (?:that|which) (?:took|needed|wanted|required|got|was|were)\b")
@@ -48,6 +58,11 @@ def without_other_forces(text: str) -> str:
         text: Plain text, its numbers in digits.
     """
     text = _LIFTED.sub("the usual grip will do", _ALLOWED.sub("the usual grip will do", text))
+    for match in reversed(list(_WEIGHT.finditer(text))):
+        start, end = match.span("force" if match["force"] else "other")
+        text = f"{text[:start]}{MARK}{text[end:]}"
+    if part := _PART.search(text):
+        text = f"{text[: part.start('force')]}{MARK}{text[part.end('force') :]}"
     for match in reversed(list(_OF_OBJECT.finditer(text))):
         rest = f"{text[: match.start()]} {text[match.end() :]}"
         named = (each[0] for each in re.finditer(OBJECT, rest))

@@ -14,6 +14,7 @@ from policies.instructions.own_work import without_own_work
 from policies.instructions.quantities import Quantities, read_quantities
 from policies.instructions.quantities.numerals import in_digits
 from policies.instructions.refusal import refusal_of
+from policies.instructions.statements import without_statements
 from policies.instructions.unproved_least import needs_of_others, unproved_least
 
 
@@ -125,7 +126,7 @@ _SHORT = re.compile(
 def read_request(text: str) -> Request:
     """Read an instruction as a person wrote it."""
     clean = without_other_forces(in_digits(spelled(plain(text[:MAX_CHARACTERS]))))
-    numbers = read_quantities(clean)
+    clean, numbers, stated = _meant(clean)
     verb = _HOLD.search(numbers.rest)
     thing = _THING.search(numbers.rest)
     return Request(
@@ -134,8 +135,25 @@ def read_request(text: str) -> Request:
         manner=read_manner(numbers.rest),
         verb=verb.group() if verb else "hold",
         thing=thing.group(1) if thing else "",
-        refused=_refusal(text, clean, numbers),
+        refused=_refusal(text, clean, numbers) or stated,
     )
+
+
+def _meant(clean: str) -> tuple[str, Quantities, str]:
+    """The text and its quantities without forces that are only stated; why to refuse it, or ''."""
+    numbers = read_quantities(clean)
+    is_wish = any(force.kind != "most" for force in numbers.forces)
+    is_told = any(force.is_told for force in numbers.forces)
+    if is_told or (not is_wish and numbers.delta_n is None):
+        return clean, numbers, ""
+    statements = without_statements(clean)
+    if not statements.words:
+        return clean, numbers, ""
+    rest = read_quantities(statements.rest)
+    is_left = rest.forces or rest.delta_n is not None
+    if (is_left and statements.rest != clean) or statements.is_elsewhere:
+        return statements.rest, rest, ""
+    return clean, numbers, f"{statements.words!r} asks for no force; say 'use ...' or 'at most ...'"
 
 
 def _refusal(text: str, clean: str, numbers: Quantities) -> str:
@@ -148,9 +166,15 @@ def _refusal(text: str, clean: str, numbers: Quantities) -> str:
     return reason or _unproved(clean, numbers)
 
 
+_TAKE_IT = re.compile(
+    r"[,.;] (?:\w+ ){0,2}?(?:pick|take|lift|grab|hold|grip|get|fetch|handle) (?:it|this|that)\b(?! (?:one|straw|berr|fruit))"
+)
+"""'The pear needs 1.8 N, pick it up': it is the pear."""
+
+
 def _unproved(clean: str, numbers: Quantities) -> str:
     """Reason to refuse a force that may be no wish; '' for none."""
-    if numbers.forces and (words := needs_of_others(clean)):
+    if numbers.forces and not _TAKE_IT.search(clean) and (words := needs_of_others(clean)):
         return f"{words!r} says what something else takes; say 'use ...' for this grip"
     kinds = {force.kind for force in numbers.forces if not force.is_told}
     if kinds == {"least"} and (words := unproved_least(clean)):

@@ -31,26 +31,27 @@ _CLIENTS = r"(?:customer|client|boss|buyer|supervisor|test|trial|experiment|chec
 _OTHERS = re.compile(
     r"^(?:(?:and|so|then|well|because|since|but) )*(?!(?:and|so|well|because|since|but|please|just|now|then|i|we|you|it|this|that|these|they|what|use|hold|grip|keep|apply|take|make|let|go|give|get|have|there)\b)"
     r"(?:(?:the|my|our|your|an?|most|all|other|some|old|previous|any) ){0,3}"
-    rf"(?!{_OURS})"
+    rf"(?!{_OURS}|(?:the|my|our|your|an?|answer|kpi)\b)"
     r"[a-z']+(?: robots?| gripper| operator)?(?: \w+ly)? (?:uses?|used|needs?|needed|wants?|wanted|takes?|took|insists?(?: on)?|says?|said|say|has|had|would|are|is|was|were|can|gets?|got|"
     r"exerts?|squeezes?|holds?|grips?|picks?|requires?|required|recommends?)\b"
 )
 _HELD = re.compile(
-    r"\b((?:hold|grip|grasp|pick|lift|take|grab|squeeze|clamp|fetch|catch|handle)(?:p?ing)?(?: up)? (?:the|an?|that|this|my|our|your)) (?:\w+ ){0,2}\w+(?= (?:with|at|by|using|and|in)\b)"
+    r"\b((?:(?:hold|grip|grasp|pick|lift|take|grab|squeeze|clamp|fetch|catch|handle)(?:p?ing)?(?: up)?|(?:force|grip|hold|squeeze|pressure) on|for) (?:the|an?|that|this|my|our|your)) "
+    r"(?:\w+ ){0,2}\w+(?= (?:with|at|by|using|and|in|above|over|must|should|shall|to)\b|[,.;!]| ?$)"
 )
-"""'Grip the rubber plug with': whatever it is."""
+"""'Grip the rubber plug with', 'the force on the test tube': whatever it is."""
 _WARNED = re.compile(
     rf"\b(?:careful|caution|warning|danger|attention|beware|watch out|mind)[:,!]? (?:of |for |about |with )?(?:{_OVER.pattern})"
 )
 _NOT_MEANT = re.compile(
     r"\b(?:the )?last thing\b|\b(?:just )?(?:kidding|joking)\b|\bas if\b|\b(?:keep|always|again) exceed\w*|\bi (?:fear|worry(?: about)?|am afraid)\b|"
-    r"\b(?:if|when) you (?:use|exceed|go)\b|\bbroke the\b|\bgripper can\b"
+    r"\b(?:if|when) you (?:use|exceed|go)\b|\bbroke the\b|\b(?:gripper|robot|arm|motor) (?:can|could|has)\b"
 )
 """What shows that a force is no wish, wherever it stands."""
 _UNAFRAID = re.compile(r"\b(?:not|never) (?:hesitate|be afraid|fear|mind)(?: to| of)?\b")
 _OTHER_NEEDS = re.compile(
     r"(?:^|(?<=[.;,] )|\b(?:and|but|because) )(?:the|my|our|your|an?|other|most|that) (?:\w+ )?"
-    rf"(?!{_OURS}|{_CLIENTS})"
+    rf"(?!{_OURS}|{_CLIENTS}|(?:can|could|may|might|will|would)\b)"
     rf"[a-z]+ (?:usually |always |only |really |just )?(?:needs?|takes?|took|wants?|requires?|required|pulls?(?: with)?|saturates? at|clips? at|stalls? at|squeezes?(?: at| with)?) (?:about |around |only |just |at least )?{ONE_FORCE}"
 )
 """'The lid needs 4 N'."""
@@ -77,8 +78,7 @@ def unproved_least(text: str) -> str:
             return least[0].strip()
         if found is None or least:
             continue
-        clause = _UNAFRAID.sub(" ", clause)
-        said = re.findall(r"[a-z][a-z'-]*", _HELD.sub(r"\1", re.sub(ONE_FORCE, " ", clause)))
-        if not _PLAIN.issuperset(said):
+        clause = _HELD.sub(r"\1", _UNAFRAID.sub(" ", re.sub(ONE_FORCE, " ", clause)))
+        if not _PLAIN.issuperset(re.findall(r"[a-z][a-z'-]*", clause)):
             return found[0].strip()
     return ""

@@ -48,8 +48,8 @@ class CaptionFlags:
     json: Path | None = None
 
     def __post_init__(self) -> None:
-        if self.contacts < 1 or min(self.questions, self.seed) < 0:
-            raise UsageError("--contacts must be at least 1, --questions and --seed at least 0")
+        if self.contacts < 1 or self.questions < 0:
+            raise UsageError("--contacts must be at least 1, --questions at least 0")
         if not self.judge_timeout_s > 0:
             raise UsageError("--judge-timeout-s must be above 0")
 

@@ -256,8 +256,8 @@ COMMANDS: dict[str, Callable[[Sequence[str]], None]] = {
 
 
 def _checked(flags: EvaluationFlags) -> Path | None:
-    if (flags.limit is not None and flags.limit < 1) or flags.seed < 0:
-        raise UsageError("--limit must be at least 1, --seed at least 0")
+    if flags.limit is not None and flags.limit < 1:
+        raise UsageError(f"--limit must be at least 1, got {flags.limit}")
     if flags.threads is not None and flags.threads < 1:
         raise UsageError(f"--threads must be at least 1, got {flags.threads}")
     if not isinstance(flags, RealTouchFlags) or flags.real is None:

@@ -50,8 +50,8 @@ class QuestionFlags:
     wrong: bool = False
 
     def __post_init__(self) -> None:
-        if min(self.contacts, self.per_question) < 1 or self.seed < 0:
-            raise UsageError("--contacts and --per-question must be at least 1, --seed at least 0")
+        if min(self.contacts, self.per_question) < 1:
+            raise UsageError("--contacts and --per-question must be at least 1")
 
 
 def main(argv: Sequence[str]) -> None:

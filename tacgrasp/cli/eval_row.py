@@ -51,8 +51,6 @@ class RowFlags:
     threads: int | None = None
 
     def __post_init__(self) -> None:
-        if self.seed < 0:
-            raise UsageError(f"--seed must be at least 0, got {self.seed}")
         for name in ("samples", "limit", "threads"):
             value = getattr(self, name)
             if value is not None and value < 1:

@@ -23,7 +23,7 @@ _CONTRACTIONS = (
     (rf"\b({_STEMS})n['’]t\b", r"\1 not"),
     (r"\b(do|does|did|is|are|was|were|must|should|could|would|need)nt\b", r"\1 not"),
     (r"\blet['’]s\b", "let us"),
-    (r"\b(i|you|we|they|it|he|she|that|there|who|what)['’](?:ll)\b", r"\1 will"),
+    (r"(?<=[a-z])['’](?:ll)\b", " will"),
     (r"\b(i|you|we|they)['’](?:d)\b", r"\1 would"),
     (r"\b(i|you|we|they)['’](?:ve)\b", r"\1 have"),
     (r"\b(you|we|they)['’]re\b", r"\1 are"),
@@ -39,11 +39,25 @@ _CONTRACTIONS = (
     (r"\bgotta\b", "have to"),
     (r"\bpls\b|\bplz\b", "please"),
     (r"\bu\b", "you"),
+    (r"\badn\b", "and"),
     (r"\bteh\b|\bhte\b|\bda\b", "the"),
     (r"\bur\b", "your"),
     (r"\bles\b", "less"),
+    (r"\b(hold|grip|grab|lift|pick)['’]er\b", r"\1 it"),
+    (r"\bwi['’]?(?= )", "with"),
+    (r"\ban['’](?= )", "and"),
+    (r"\bye\b", "you"),
+    (r"\b(?:dinnae|dinna)\b", "do not"),
     (r"\bmor\b", "more"),
 )  # fmt: skip
+
+_FOREIGN_BOUNDS = (
+    (r"\b(?:höchstens|hoechstens|maximal|maximaal|hoogstens|nicht mehr als|nicht über|niet meer dan|au plus|au maximum|pas plus (?:de|que)|como m[áa]ximo|a lo sumo|no m[áa]s de|al massimo|non più di|no máximo|högst|højst|enintään)(?= (?:(?:de|di|von) )?\d)", "at most"),
+    (r"\b(?:mindestens|wenigstens|nicht weniger als|minstens|ten ?minste|au moins|pas moins (?:de|que)|como m[íi]nimo|por lo menos|al menos|almeno|come minimo|pelo menos|no mínimo|minst|mindst|vähintään)(?= (?:(?:de|di|von) )?\d)", "at least"),
+    (r"\b(?:ungefähr|etwa|environ|ongeveer|aproximadamente|unos)(?= \d)", "about"),
+    (r"\b(?:zwischen|entre|tra|tussen|fra|mellan) (?=(\d[\d.,]*(?: ?[a-zµ]+)?) (?:und|et|y|e|en|och|og) (\d))\1 \w+ ", r"between \1 and "),
+)  # fmt: skip
+"""Bounds that people say in their own language, whatever the rest of the sentence is in."""
 
 _SENTENCE = re.compile(r"(?<!\d)[.!?]+|[.!?]+(?=\s|$)|\n+")
 CLAUSE = re.compile(
@@ -67,7 +81,7 @@ def plain(text: str) -> str:
     text = re.sub("(?<=[\\w)])([⁰¹²³⁴⁵⁶⁷⁸⁹])", r"^\1", text)  # '0.5²' is no 0.52
     text = unicodedata.normalize("NFKC", text).lower()
     text = text.replace("()", "").replace("−", "-").replace("⩽", "<=").replace("&lt;", "<")
-    for pattern, replacement in _CONTRACTIONS:
+    for pattern, replacement in (*_CONTRACTIONS, *_FOREIGN_BOUNDS):
         text = re.sub(pattern, replacement, text)
     text = re.sub(r"\banything (?:but|other than|except)\b", "not", text)
     return _ASIDE.sub(r"\1", " ".join(text.split()))

@@ -31,7 +31,7 @@ class EarlierGrip:
 _MAY = r"(?:will|would|might|may|can|could|shall|should|did|does|do|to|start(?:s|ed)? to|began to|begins to|tend(?:s|ed)? to)(?: \w+ly| just| still| only| always| simply| have)?"
 _LOOSE = r"(?:away|loose|free|out|off|down)"
 _SLIPPED = (
-    rf"(?:slip(?:s|ped|pe?d|page|ping)|slid(?:e?d|den|es|ing)?|falls|fell|fallen|falling|dropped|drops|dropping|tumble[sd]|escape[sd]|wobble[sd]|roll(?:s|ed)|turn(?:s|ed)|twist(?:s|ed)|rotate[sd]|shift(?:s|ed)|moved|moves|"
+    rf"(?:slip(?:s|ped|pe?d|page|ping)|(?<!on )(?<!for )(?<!the )(?<!of )(?<!glass )(?<!with )slid(?:e?d|den|es|ing)?|falls|fell|fallen|falling|dropped|drops|dropping|tumble[sd]|escape[sd]|wobble[sd]|roll(?:s|ed)|turn(?:s|ed)(?! (?:an?|the|it|this|that|my|your|into|to)\b)|twist(?:s|ed)|rotate[sd]|shift(?:s|ed)|moved|moves|"
     rf"{_MAY} (?:be )?(?:slip(?:ped)?|slide|fall(?:en)?|drop(?:ped)?|escape|roll|turn|twist|shift|move|lose (?:it|grip|hold|contact))|"
     rf"(?:got|gets|getting|came|comes|coming|went|goes|broke|breaks|popped|pops|wriggle[sd]|worked|flew|shot|jumped) (?:right |straight |completely )?{_LOOSE}\b(?! (?:of|(?:\w+ly )?(?:clean|fine|ok(?:ay)?|well|good|great|best|perfect\w*|nice\w*|beautiful\w*|all ?right|intact|whole|unharmed|undamaged|unmarked|unscathed|unbruised|spotless|as|on top|without|with no))\b)|"
     r"(?:loses?|lost|losing)(?: (?:my|the|its|our|all|any))? (?:it|them|grip|hold|contact|purchase|traction|the \w+)|(?:was|were|is|got|gets|been) (?:\w+ )?lost|(?:grip|grasp|hold) (?:was |is |has |had )?(?:failed|fails|broke|gave way)|"
@@ -41,7 +41,7 @@ _SLIPPED = (
 _APART = r"(?:apart|to (?:bits|pieces|shreds)|in (?:half|two|pieces))"
 _HURT = (
     r"(?:(?:broken?|breaks?|breaking)(?! (?:free|loose|away|out)\b)|torn?|tore|tears|burst(?:s|ed|ing)?|split(?:s|ting|ted)?|crack(?:s|ed|ing)?|crush(?:es|ed|ing)?|squash(?:es|ed|ing)?|squish(?:es|ed)?|smash(?:es|ed)?|bruis(?:es|ed?|ing)|dent(?:s|ed|ing)?|damag(?:es|ed?|ing)|"
-    r"mark(?:s|ed)|deform(?:s|ed|ation)?|indent(?:ed|ations?)|ruptur(?:es|ed?|ing)|punctur(?:es|ed)|pierc(?:es|ed)|shatter(?:s|ed)|fractur(?:es|ed?)|collaps(?:es|ed?)|flatten(?:s|ed)|pulp(?:s|ed)|mashed|mush|jam|juice|leak(?:s|ed|ing)?|ooz(?:es|ed|ing)|bled|bleeds|"
+    r"mark(?:s|ed)|deform(?:s|ed|ation)?|indent(?:ed|ations?)|ruptur(?:es|ed?|ing)|punctur(?:es|ed)|pierc(?:es|ed)|shatter(?:s|ed)|fractur(?:es|ed?)|collaps(?:es|ed?)|flatten(?:s|ed)|pulp(?:s|ed)|mashed|mush|jam(?! jar)|juice(?! (?:box|carton|bottle))|leak(?:s|ed|ing)?|ooz(?:es|ed|ing)|bled|bleeds|"
     r"pop(?:s|ped)|snap(?:s|ped)|(?<!grip )(?<!grasp )(?<!hold )fail(?:s|ed)(?! to (?:hold|keep|lift|grip|carry|pick)\b)|yield(?:s|ed|ing)|ruin(?:s|ed)?|spoil(?:s|ed|t)?|destroy(?:s|ed)|wreck(?:s|ed)|kill(?:s|ed)|hurts?|injur(?:es|ed|y)|suffer(?:s|ed)|(?:caves?|caved|gives?|gave) (?:in|way)|cut into|"
     rf"(?:fell|falls|fallen|comes?|came|goes|went) {_APART}|(?:left|leaves|leaving|leave|made|makes|showed|shows|got|had|has) (?:\w+ ){{0,3}}?(?:marks?|dents?|bruis\w*|imprints?|indentations?|prints?|damage|cracks?|traces?|scars?|grooves?))"
 )

@@ -243,7 +243,7 @@ def test_eval_ablate_prints_and_writes_every_condition(
     ("argv", "expected"),
     [
         (["--contacts", "1"], "--contacts must be at least 2"),
-        (["--episodes", "-1"], "--episodes and --seed at least 0"),
+        (["--episodes", "-1"], "--episodes at least 0"),
         (["--data", "nowhere"], "--data nowhere does not exist"),
         (["--json", "no/where.json"], "can't be written"),
     ],
