@@ -13,6 +13,7 @@ from enum import Enum
 import numpy as np
 from numpy.typing import NDArray
 
+from cltp.errors import TouchError
 from cltp.tactile.measure import contact_state
 from primitives.devices import Pose
 from primitives.execution import PadAxes, rotate
@@ -175,8 +176,7 @@ class Jogger:
             notes = "".join(f" ({note})" for note in (force.note, state.clamped) if note)
             return f"closed with {state.force_n:.2f} N at {1000 * state.width_m:.1f} mm{notes}"
         if command is JogAction.OPEN:
-            state = self._rig.gripper.open_by(self._clear_m)
-            return f"open at {1000 * state.width_m:.1f} mm"
+            return self._open()
         if command is JogAction.STOP:
             self._rig.arm.stop()
             return "stopped"
@@ -184,17 +184,28 @@ class Jogger:
             return f"{command.key!r} is no command; ? lists them"
         return "\n".join(HELP) if command is JogAction.HELP else ""
 
+    def _open(self) -> str:
+        """Open, and take the gel as untouched; a sensor that gives no reference hinders nothing."""
+        state = self._rig.gripper.open_by(self._clear_m)
+        note = ""
+        try:
+            self._sense.take_reference()
+        except TouchError as error:
+            note = f"; no new reference, so a contact that is shown may be none: {error}"
+        return f"open at {1000 * state.width_m:.1f} mm{note}"
+
     def contact(self) -> str:
-        """Description of the present contact, against the gel before the last closing if any.
+        """Description of the present contact; it says so where there is no reference yet.
 
         Raises:
             TouchError: The sensor failed.
         """
         cloud = self._sense.read()
-        if self._sense.in_contact(cloud):
+        in_contact = self._sense.in_contact(cloud)
+        if in_contact:
             self._gripper.feel(self._sense.felt_force(cloud))
-        state = contact_state(cloud, in_contact=self._sense.in_contact(cloud))
-        return contact_text(state, cloud.force_scale)
+        text = contact_text(contact_state(cloud, in_contact=in_contact), cloud.force_scale)
+        return f"{text}; no reference yet, o takes one" if in_contact is None else text
 
     def _step(self, step: JogStep) -> str:
         start = self._rig.arm.pose()

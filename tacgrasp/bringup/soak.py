@@ -154,7 +154,7 @@ def _sensor(hardware: HardwareConfig, config: RunConfig, seconds: float) -> Find
     settings = hardware.sensor
     if isinstance(settings, RecordedSettings) or not settings.is_live:
         return finding("sensor", "soak", True, "a recording: it has no line to test")
-    sensor, durations_ms, num_reads = connect_sensor(settings), [], 0
+    sensor, durations_ms, num_reads = connect_sensor(settings.without_force()), [], 0
     try:
         began_s = time.monotonic()
         while time.monotonic() - began_s < seconds:

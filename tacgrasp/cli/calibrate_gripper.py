@@ -109,12 +109,18 @@ def parse_date(text: str) -> datetime.date:
 def _measured(
     flags: CalibrateGripperFlags, settings: DynamixelSettings, date: datetime.date, console: Console
 ) -> GripperCalibration:
+    from primitives.errors import RobotError
     from tacgrasp.drivers.dynamixel.fingers import connect_fingers
     from tacgrasp.drivers.dynamixel.measure_calibration import calibrate_gripper, steps_ma
+    from tacgrasp.drivers.opening import opening_problem
     from tacgrasp.rig.release import opened_afterwards
 
     fingers = connect_fingers(settings)
     try:
+        grip = "" if fingers.kept_ma is None else f"{fingers.kept_ma:.0f} mA"
+        problem = opening_problem(fingers.width_m(), grip, "it would be squeezed harder, then fall")
+        if problem:
+            raise RobotError(f"{problem}; nothing moved")
         console.print("put the scale between the fingers, at zero; they will close")
         _read_line("press Enter when it is there, Ctrl-C to leave: ")
         max_ma = settings.max_current_ma if flags.max_ma is None else flags.max_ma

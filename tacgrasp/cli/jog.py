@@ -41,8 +41,8 @@ class JogFlags:
         task: Task whose clear_mm the gripper opens by.
         seed: Random seed of the simulated or emulated world.
         force_n: Force of the first grip [N]; the rig's first force if omitted.
-        open: Open the gripper of real devices by 10 mm and end, whatever arm and sensor are like:
-            they are not connected.
+        open: Open the gripper of real devices by 10 mm and end, whatever arm, sensor and the
+            gripper's calibration are like: they are not needed.
     """
 
     rig: str = "sim"
@@ -70,7 +70,7 @@ def main(argv: Sequence[str]) -> int:
     if flags.open:
         out.print(_opened_alone(config))
         return 0
-    rig = make_rig(config)
+    rig = make_rig(config, must_grip=False)
     try:
         force_n = rig.first_force_n if flags.force_n is None else flags.force_n
         settings = JogSettings(force_n=clamp_force(force_n, limits).value)
@@ -112,7 +112,7 @@ def _opened_alone(config: RunConfig) -> str:
 
     if config.hardware is None or config.devices != "hardware":
         raise UsageError("--open is for real devices; name their file with --rig")
-    gripper = connect_gripper_of(config.hardware.gripper).gripper
+    gripper = connect_gripper_of(config.hardware.gripper, must_grip=False).gripper
     try:
         state = gripper.open_by(CLEAR_M)
     finally:
@@ -130,8 +130,9 @@ def _kept_grip(rig: Rig) -> str:
         return ""
     if not state.closed:
         return ""
-    width_mm = 1000 * state.width_m
-    return f"the gripper keeps its grip: {state.force_n:.2f} N commanded, {width_mm:.1f} mm"
+    # a gripper without a calibration does not know its force
+    force = f"{state.force_n:.2f} N commanded, " if state.force_n > 0 else ""
+    return f"the gripper keeps its grip: {force}{1000 * state.width_m:.1f} mm"
 
 
 def _jog(keys: Iterator[str], jogger: Jogger, settings: JogSettings, out: Console) -> None:

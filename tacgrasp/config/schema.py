@@ -263,7 +263,8 @@ class RunConfig(SettingsBase):
         seed: Random seed of the object, its pose, the gripper, the sensor and the random policy.
         sensor: Name of the tactile sensor; on a rig with drivers that of its driver.
         on_success: Gripper action after a verified grasp: hold or release.
-        on_failure: Gripper action after any other end: hold or release.
+        on_failure: Gripper action after any other end: hold or release; what may hang in the air is
+            held.
         dry_run: Read and decide once, and send nothing to the devices.
         reflex: Whether a reflex corrects the force between decisions, where the sensor feels shear.
         slip_calibration: File of the sensor's slip calibration; none: the threshold of all units.

@@ -9,6 +9,7 @@ from __future__ import annotations
 import datetime
 from collections.abc import Callable
 from pathlib import Path
+from typing import Self
 
 from pydantic import Field
 
@@ -50,6 +51,10 @@ class SensorUnitSettings(SettingsBase):
     def sensor_name(self) -> str:
         """Name of the sensor's model."""
         raise NotImplementedError
+
+    def without_force(self) -> Self:
+        """The same unit without a force calibration, to test it whatever that file is like."""
+        return self.model_copy(update={"force_calibration": None})
 
 
 Today = Callable[[], datetime.date]

@@ -7,7 +7,7 @@ opened here, since what it holds would fall.
 
 from __future__ import annotations
 
-from primitives.devices import Gripper, GripperState
+from primitives.devices import Gripper
 from primitives.errors import RobotError
 
 LEAST_OPEN_M = 0.005
@@ -20,17 +20,25 @@ BY_JOG = "tacgrasp jog (key o; --open needs the gripper alone)"
 
 OPEN_IT = f"open it until it is wide enough: {BY_JOG}"
 
+UNTOUCHED = "what presses on the gel would be taken for the untouched gel"
+"""What would go wrong with a gripper that still grips, where the sensor is read."""
 
-def opening_problem(state: GripperState) -> str:
-    """Why a gripper is not open; empty if it is."""
-    width_mm = 1000 * state.width_m
-    if state.closed:
+
+def opening_problem(width_m: float, grip: str, risk: str = UNTOUCHED) -> str:
+    """Why a gripper is not open; empty if it is.
+
+    Args:
+        width_m: Opening between the fingers [m].
+        grip: How hard it grips, for people; empty if it does not.
+        risk: What would go wrong if it still grips.
+    """
+    width_mm = 1000 * width_m
+    if grip:
         return (
-            f"the gripper is not open: it still grips, with {state.force_n:.2f} N commanded and "
-            f"{width_mm:.1f} mm between the fingers; what presses on the gel would be taken for "
-            f"the untouched gel. Support what it holds, then {OPEN_IT}"
+            f"the gripper is not open: it still grips, with {grip} and {width_mm:.1f} mm between "
+            f"the fingers; {risk}. Support what it holds, then {OPEN_IT}"
         )
-    if state.width_m < LEAST_OPEN_M:
+    if width_m < LEAST_OPEN_M:
         return (
             f"the gripper is not open: {width_mm:.1f} mm between the fingers, at least "
             f"{1000 * LEAST_OPEN_M:g} mm are needed; {OPEN_IT}"
@@ -44,5 +52,7 @@ def check_open(gripper: Gripper) -> None:
     Raises:
         RobotError: It grips, or its fingers are almost closed; or it has failed.
     """
-    if problem := opening_problem(gripper.state()):
+    state = gripper.state()
+    grip = f"{state.force_n:.2f} N commanded" if state.closed else ""
+    if problem := opening_problem(state.width_m, grip):
         raise RobotError(f"{problem}; nothing moved")

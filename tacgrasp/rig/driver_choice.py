@@ -41,7 +41,7 @@ class ConnectedGripper:
 
     Attributes:
         gripper: The device.
-        max_force_n: Largest force that it can be commanded [N].
+        max_force_n: Largest force that it can be commanded [N]; 0 for one that only opens.
         force_step_n: Least change of the commanded force that it makes [N].
         check_alive: Returns why its readings are too old to move by; raises when it has failed.
         sent: Returns its driver's last message on the wire.
@@ -70,8 +70,13 @@ def connect_arm_of(settings: ArmSettings) -> ConnectedArm:
     return ConnectedArm(arm=connect_plugin("arms", settings), sent=lambda: NOT_LOGGED)
 
 
-def connect_gripper_of(settings: GripperSettings) -> ConnectedGripper:
+def connect_gripper_of(settings: GripperSettings, *, must_grip: bool = True) -> ConnectedGripper:
     """Connect the gripper of a rig's file.
+
+    Args:
+        settings: The gripper's section of the rig's file.
+        must_grip: Whether a calibration that does not fit is an error; otherwise it is a warning,
+            and the gripper only opens.
 
     Raises:
         RobotError: It can't be reached or used.
@@ -79,7 +84,7 @@ def connect_gripper_of(settings: GripperSettings) -> ConnectedGripper:
     if isinstance(settings, DynamixelSettings):
         from tacgrasp.drivers.dynamixel.gripper import connect_gripper
 
-        gripper = connect_gripper(settings)
+        gripper = connect_gripper(settings, must_grip=must_grip)
         return ConnectedGripper(
             gripper=gripper,
             max_force_n=gripper.max_force_n,

@@ -50,8 +50,12 @@ def check_devices(config: RunConfig, *, allow_uncalibrated_force: bool = False) 
         raise UsageError(f"{reason}; nothing moved")
 
 
-def make_rig(config: RunConfig) -> Rig:
+def make_rig(config: RunConfig, *, must_grip: bool = True) -> Rig:
     """Build the rig that ``config.devices`` names; never falls back to another one.
+
+    Args:
+        config: The configuration.
+        must_grip: Whether a real gripper needs a calibration that fits; without one it only opens.
 
     Raises:
         UsageError: The simulator knows no such object, or the mesh doesn't exist.
@@ -71,7 +75,8 @@ def make_rig(config: RunConfig) -> Rig:
             "a rig of real devices needs gripper.first_force_n, the largest commanded force until "
             "something is felt [N]"
         )
-    return hardware_rig.connect(config, config.hardware, config.gripper.first_force_n)
+    first_force_n = config.gripper.first_force_n
+    return hardware_rig.connect(config, config.hardware, first_force_n, must_grip=must_grip)
 
 
 def make_centred_rig(config: RunConfig) -> Rig:

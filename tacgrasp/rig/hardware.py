@@ -120,10 +120,18 @@ class HardwareRig:
             device.disconnect()
 
 
-def connect(config: RunConfig, hardware: HardwareConfig, first_force_n: float) -> HardwareRig:
+def connect(
+    config: RunConfig, hardware: HardwareConfig, first_force_n: float, *, must_grip: bool = True
+) -> HardwareRig:
     """Connect sensor, gripper and arm, then move the arm to its start, except in a dry run.
 
     An arm goes to its start pose with an open gripper alone.
+
+    Args:
+        config: The configuration.
+        hardware: Its devices.
+        first_force_n: Largest commanded force of a first grasp until something is felt [N].
+        must_grip: Whether the gripper needs a calibration that fits; without one it only opens.
 
     Raises:
         RobotError: A device can't be reached or is in a wrong state, and nothing has moved; or the
@@ -144,11 +152,12 @@ def connect(config: RunConfig, hardware: HardwareConfig, first_force_n: float) -
         stack.callback(sensor.disconnect)
         if hardware.sensor.is_live:  # the first cloud of a recording is the episode's
             prepare(sensor)
-        gripper = connect_gripper_of(hardware.gripper)
+        gripper = connect_gripper_of(hardware.gripper, must_grip=must_grip)
         stack.callback(gripper.gripper.disconnect)
         if hardware.start.at == "pose" and not config.dry_run:
             check_open(gripper.gripper)
-        _check_forces(config, gripper.max_force_n)
+        if gripper.max_force_n > 0:
+            _check_forces(config, gripper.max_force_n)
         arm = connect_arm_of(hardware.arm)
         stack.callback(arm.arm.disconnect)
         guarded = GuardedArm(arm.arm, [gripper.check_alive, sensor.check_alive])
@@ -215,7 +224,7 @@ def device_findings(
         first_force_n: The rig's ``gripper.first_force_n`` [N]; None is not checked.
         max_force_n: The rig's ``gripper.max_force_n`` [N].
     """
-    _, check_sensor = _sensor_driver(hardware.sensor)
+    _, check_sensor = _sensor_driver(hardware.sensor.without_force())  # a finding of its own
     arm = arm_findings(hardware.arm, partial(_way_problem, hardware.start))
     gripper = gripper_findings(hardware.gripper, first_force_n, max_force_n)
     of_touch = force_finding(hardware.sensor) if hardware.sensor.is_live else _PLAYS

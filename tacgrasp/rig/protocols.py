@@ -54,6 +54,7 @@ class TactileSensor(Protocol):
         """Free the device. Idempotent, never raises."""
 
 
+@runtime_checkable
 class WatchedSensor(TactileSensor, Protocol):
     """A sensor of a real rig, which can be checked while the arm moves."""
 

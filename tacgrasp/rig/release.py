@@ -10,7 +10,7 @@ from contextlib import contextmanager
 
 from cltp.errors import TouchError
 from primitives.devices import Gripper
-from primitives.errors import RobotError
+from primitives.errors import RobotError, TorqueOffError
 from tacgrasp.base.errors import UsageError
 from tacgrasp.drivers.opening import BY_JOG
 from tacgrasp.episodes.interrupts import delayed_interrupts
@@ -23,6 +23,19 @@ FREE_BY_HAND = (
     f"the cause and open with {BY_JOG}"
 )
 """Advice when a gripper that should release has failed: it takes no command any more."""
+
+
+def unopened_text(error: RobotError, told: str) -> str:
+    """What a gripper that did not open means for what it gripped, for the operator.
+
+    Args:
+        error: Why it did not open.
+        told: What the operator is told already.
+    """
+    reason = "" if str(error) in told else f": {error}"
+    if isinstance(error, TorqueOffError):
+        return f"the gripper has no torque and holds nothing{reason}"
+    return f"the gripper could not be opened{reason}; {FREE_BY_HAND}"
 
 
 def let_go(gripper: Gripper, clear_m: float) -> None:
@@ -43,8 +56,8 @@ def opened_afterwards(open_up: Callable[[], object]) -> Iterator[None]:
         open_up: Opens it, or does nothing where it is open.
 
     Raises:
-        RobotError: It could not be opened, whatever ended the block; the message says that it may
-            still hold, and what frees it.
+        RobotError: It could not be opened, whatever ended the block; the message says whether it
+            may still hold, and what frees it.
     """
     try:
         yield
@@ -79,8 +92,7 @@ def _opened(open_up: Callable[[], object], told: str) -> tuple[str, KeyboardInte
             try:
                 open_up()
             except RobotError as error:
-                reason = "" if str(error) in told else f": {error}"
-                problem = f"the gripper could not be opened{reason}; {FREE_BY_HAND}"
+                problem = unopened_text(error, told)
     except KeyboardInterrupt as late:
         interrupt = late
     return problem, interrupt

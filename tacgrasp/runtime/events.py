@@ -97,6 +97,7 @@ class EventFile:
             {
                 "reason": outcome.reason,
                 "message": outcome.message,
+                "safe_state": outcome.safe_state,
                 "verified": outcome.verified,
                 "bruised": any(bruised) if bruised else None,
                 "dropped": truth.get("dropped"),
@@ -110,7 +111,7 @@ class EventFile:
     def refused(self, contract: Contract) -> None:
         """The end of a run that did not begin."""
         nothing = dict.fromkeys(
-            ("verified", "bruised", "dropped", "peak_force_n", "slip_minimum_n")
+            ("safe_state", "verified", "bruised", "dropped", "peak_force_n", "slip_minimum_n")
         )
         message = {"reason": "refused", "message": contract.refused}
         self._write("end", {**message, **nothing, "steps": 0, "actions": 0})

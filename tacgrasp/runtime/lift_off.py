@@ -130,6 +130,7 @@ def lift_off(
         for rise in range(1, num_rises + 1):
             before_mm = hold.place_mm
             up_m = np.array([0.0, 0.0, rise * settings.lift_off_mm / 1000])
+            steps.may_hang = True
             _go(rig, shifted(start, up_m), settings.lift_off_speed_m_s, settings.acceleration_m_s2)
             rig.clock.sleep(still_s)
             if hold.still_s < still_s:

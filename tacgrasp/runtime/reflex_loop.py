@@ -26,7 +26,13 @@ from primitives.contract import Contract
 from primitives.execution import Executor
 from primitives.sense import Interval
 from tacgrasp.config.schema import RunConfig
-from tacgrasp.rig.protocols import CallingClock, Rig, StreamingShearSensor
+from tacgrasp.rig.protocols import (
+    CallingClock,
+    Rig,
+    StreamingShearSensor,
+    TactileSensor,
+    WatchedSensor,
+)
 from tacgrasp.runtime.reflex_hold import QUIET_FRAMES, ReflexHold
 from tacgrasp.runtime.reflex_thread import beside_motion
 
@@ -216,7 +222,8 @@ class ReflexLoop:
             at_s = self._began_s + reading.t_s
             self._samples.append((at_s, felt_n, reading.commanded_n, slip))
         if correction.act is Act.END:
-            raise TouchError(f"the reflex was blind: {correction.reason}; the grip was kept")
+            reasons = f"the reflex was blind: {correction.reason}", _silence(self._rig.sensor)
+            raise TouchError("; ".join(filter(None, reasons)))
         if correction.act in (Act.RAISE, Act.LOWER):
             self._command(hold, correction, reading)
 
@@ -287,6 +294,16 @@ def unfelt_slips(rig: Rig, config: RunConfig) -> str:
         return ""
     others = "; --sensor taxels feels them" if config.reflex and config.devices == "sim" else ""
     return f"slips of the lift-off are not felt, the grip stays as it is: {reason}{others}"
+
+
+def _silence(sensor: TactileSensor) -> str:
+    """What a sensor of a rig in real time says of why it gives no reading, with its remedy."""
+    if not isinstance(sensor, WatchedSensor):
+        return ""
+    try:
+        return sensor.check_alive()
+    except TouchError as error:
+        return str(error)
 
 
 def _absence(rig: Rig) -> str:

@@ -9,12 +9,13 @@ from dataclasses import asdict, dataclass, replace
 from typing import TypeVar
 
 from primitives import RobotError
+from primitives.errors import TorqueOffError
 from tacgrasp.config.schema import RunConfig, VerifyConfig
 from tacgrasp.episodes import EpisodeEnd, EpisodeError
 from tacgrasp.episodes.interrupts import delayed_interrupts
 from tacgrasp.episodes.record import TruthFacts
 from tacgrasp.rig.protocols import Rig
-from tacgrasp.rig.release import FREE_BY_HAND
+from tacgrasp.rig.release import FREE_BY_HAND, unopened_text
 from tacgrasp.runtime.outcome import RELEASED, EndOfEpisode, EndReason, Outcome, Verification
 from tacgrasp.runtime.steps import Recorder, Step, Steps
 
@@ -24,6 +25,13 @@ T = TypeVar("T")
 
 INTERRUPTS_SURVIVED = 3
 """Number of times that an interrupted safety command is repeated."""
+
+KEPT = "the gripper keeps its grip"
+HANGING = (
+    f"{KEPT}, since what it holds may hang in the air: support it, then let go with tacgrasp jog "
+    "--open"
+)
+"""States of the gripper at the end of an episode that leaves it closed."""
 
 STORED_NAMES = {"gripper_force_gain": "gripper_factor"}
 """Names of the truth's facts in episode files where they differ from the simulator's."""
@@ -118,6 +126,7 @@ def read_truth(rig: Rig, verify: VerifyConfig) -> TruthFacts | None:
 def _make_safe(ending: Ending) -> tuple[str, bool]:
     """Stop, then hold or release; return the state of the gripper, and whether it is as desired.
 
+    What may hang in the air is held whatever the task says of a failed episode: it would fall.
     Fingers that closed on nothing, at the start pose, open as wide as they were before the first
     grasp, so that the next run finds them around the object. All others open by ``clear_mm``.
     """
@@ -128,22 +137,34 @@ def _make_safe(ending: Ending) -> tuple[str, bool]:
     _despite_interrupts(rig.arm.stop)
     _despite_interrupts(rig.gripper.stop)
     if action == "hold":
-        return "the gripper keeps its grip", True
+        return _kept(rig, end.message)
     try:
         state = _despite_interrupts(rig.gripper.state)
         if not state.closed:
             return "the gripper is open", True
+        if ending.steps.may_hang and end.reason is not EndReason.SUCCESS:
+            return HANGING, True
         clear_m = config.primitives.clear_mm / 1000
         if end.reason is EndReason.CONTACT_LOST:
             clear_m = max(clear_m, ending.open_width_m - state.width_m)
         _despite_interrupts(lambda: rig.gripper.open_by(clear_m))
     except RobotError as error:
-        reason = "" if str(error) in end.message else f": {error}"
-        return f"the gripper could not be opened{reason}; {FREE_BY_HAND}", False
+        return unopened_text(error, end.message), False
     except KeyboardInterrupt:
         reason = "interrupted again and again"
         return f"the gripper could not be opened: {reason}; {FREE_BY_HAND}", False
     return RELEASED, True
+
+
+def _kept(rig: Rig, told: str) -> tuple[str, bool]:
+    """State of a gripper that is to hold, and whether it does as far as is known."""
+    try:
+        _despite_interrupts(rig.gripper.state)
+    except TorqueOffError as error:
+        return unopened_text(error, told), False
+    except (RobotError, KeyboardInterrupt):
+        pass  # it takes no command, and keeps its grip
+    return KEPT, True
 
 
 def _refusals(write: Callable[[], None]) -> list[str]:

@@ -188,6 +188,8 @@ class Steps:
         gain: The gripper's force gain over the grips so far; None before anything was felt.
         started_s: Start of the episode on the rig's monotonic clock [s].
         reflex: Keeps the contract between two decisions; None for none.
+        may_hang: Whether the object may hang in the air: it was lifted, and is not back where it
+            stood.
     """
 
     def __init__(
@@ -207,6 +209,7 @@ class Steps:
         self.force_mark = ""
         self.force_residual: float | None = None
         self.gain: GainEstimate | None = None
+        self.may_hang = False
         self.started_s = rig.clock.monotonic()
         self._num_idle = 0
         self._last: Step | None = None

@@ -62,9 +62,10 @@ def verify_by_lifting(
             before, floor_n = steps.observe(StepPhase.VERIFY_BEFORE), hangs.floor_n  # as it hangs
             problem = lost(resting, before)
         if problem:
-            _move(rig, start, settings, settings.acceleration_m_s2)
+            _set_down(rig, steps, start, settings)
             return Verification(passed=False, message=problem, lifted=False)
     with steps.keeping(contract, before, floor_n=floor_n):
+        steps.may_hang = True
         _move(rig, lifted, settings, settings.acceleration_m_s2)
         for pose in shake:
             _move(rig, pose, settings, settings.shake_acceleration_m_s2)
@@ -77,10 +78,10 @@ def verify_by_lifting(
         verification = compare(before, after, settings, slip_mm=contract.slip_mm)
     if settings.set_down and verification.passed:
         with steps.keeping(contract, after, floor_n=floor_n):
-            _move(rig, start, settings, settings.acceleration_m_s2)
+            _set_down(rig, steps, start, settings)
     if not verification.passed:
         # an object that is still held must not fall when it is released
-        _move(rig, start, settings, settings.acceleration_m_s2)
+        _set_down(rig, steps, start, settings)
     return verification
 
 
@@ -158,6 +159,12 @@ def not_lifted(rig: Rig, steps: Steps, config: RunConfig, contract: Contract) ->
         EndOfEpisode: ``dry_run``, always.
     """
     raise EndOfEpisode(EndReason.DRY_RUN, "success was declared, nothing was lifted")
+
+
+def _set_down(rig: Rig, steps: Steps, start: Pose, settings: VerifyConfig) -> None:
+    """Lower the object to where it stood."""
+    _move(rig, start, settings, settings.acceleration_m_s2)
+    steps.may_hang = False
 
 
 def _move(rig: Rig, pose: Pose, settings: VerifyConfig, acceleration_m_s2: float) -> None:

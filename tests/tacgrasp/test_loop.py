@@ -12,6 +12,7 @@ from cltp import TouchError
 from cltp.sensing.frames import jpeg_of
 from policies import PolicyError
 from primitives import LimitError, Primitive, RobotError
+from primitives.errors import TorqueOffError
 from primitives.execution import APPROACH_FACTOR, APPROACH_STEP_N
 from tacgrasp.episodes import StepPhase, StepRecord
 from tacgrasp.runtime.outcome import EndReason
@@ -307,6 +308,10 @@ CALLS = device_calls()
 CLOSING = len(CALLS) - CALLS[::-1].index("arm.stop") - 1
 """Index of the first call that makes safe."""
 
+MOVES = [index for index, name in enumerate(CALLS) if name == "arm.move_to"]
+LIFT = MOVES[play(Scripted(*SCRIPT))[1].moves]
+"""Index of the first call that lifts."""
+
 
 @pytest.mark.parametrize("index", range(len(CALLS)))
 def test_ctrl_c_in_any_device_call_leaves_the_robot_safe_and_the_episode_ended(index: int) -> None:
@@ -321,7 +326,8 @@ def test_ctrl_c_in_any_device_call_leaves_the_robot_safe_and_the_episode_ended(i
         assert outcome.reason is EndReason.OPERATOR
         assert "arm.stop" in after
         assert "arm.move_to" not in after
-        assert not rig.gripper.current.closed  # the strawberry's on_failure is release
+        # the strawberry's on_failure is release, but in the air it would fall
+        assert rig.gripper.current.closed is (index >= LIFT)
     else:
         assert CALLS[index] in after  # a step of making safe is taken up again
     assert len(recorder.ends) == 1
@@ -344,6 +350,56 @@ def test_a_robot_error_in_any_device_call_stops_the_arm_and_ends_the_episode(
     after = rig.calls[index + 1 :]
     assert "arm.stop" in after
     assert len(recorder.ends) == 1
+
+
+@pytest.mark.parametrize("error", [KeyboardInterrupt(), RobotError("protective stop")])
+@pytest.mark.parametrize("move", range(len(MOVES)))
+def test_what_may_hang_in_the_air_is_held_and_it_is_said_how_to_let_go(
+    move: int, error: BaseException
+) -> None:
+    def fail(name: str, number: int) -> None:
+        if number == MOVES[move]:
+            raise error
+
+    rig = FakeRig(fail)
+    outcome, _, _ = play(Scripted(*SCRIPT), rig=rig, verify=verify_by_lifting)
+    is_lifted = MOVES[move] >= LIFT
+    assert rig.gripper.current.closed is is_lifted
+    assert ("hang in the air" in outcome.safe_state) is is_lifted
+    assert ("tacgrasp jog --open" in outcome.safe_state) is is_lifted
+
+
+def test_what_is_back_where_it_stood_is_let_go_as_the_task_says() -> None:
+    rig = FakeRig()
+    rig.sensor.is_missed = lambda: rig.moves > 0  # nothing is felt any more as it is lifted
+    outcome, _, _ = play(Scripted(GOOD), rig=rig, verify=verify_by_lifting)
+    assert (outcome.reason, outcome.safe_state) == (
+        EndReason.UNVERIFIED,
+        "the gripper has released",
+    )
+    assert rig.arm.pose() == rig.start_pose
+
+
+@pytest.mark.parametrize("on_failure", ["hold", "release"])
+@pytest.mark.parametrize("error", [TorqueOffError("it has let go"), RobotError("it is gone")])
+def test_a_gripper_that_fails_in_the_lift_may_hold_unless_its_torque_is_off(
+    error: RobotError, on_failure: str
+) -> None:
+    def fail(name: str, number: int) -> None:
+        if rig.moves and name == "gripper.state":
+            raise error
+
+    rig = FakeRig(fail)
+    settings = with_end(config(), on_success="hold", on_failure=on_failure)
+    outcome, _, _ = play(Scripted(GOOD), rig=rig, verify=verify_by_lifting, settings=settings)
+    assert outcome.reason is EndReason.FAULT
+    assert outcome.message.startswith(str(error))
+    if isinstance(error, TorqueOffError):
+        assert outcome.safe_state == "the gripper has no torque and holds nothing"
+    elif on_failure == "hold":
+        assert outcome.safe_state == "the gripper keeps its grip"
+    else:
+        assert "what it grips may still be held" in outcome.safe_state
 
 
 def test_what_was_said_before_a_fault_is_recorded() -> None:

@@ -1,8 +1,8 @@
 """A gripper of Dynamixel servos that holds a force in newtons; a ``primitives.devices.Gripper``.
 
 The force comes from a calibration of this gripper; a missing, foreign or old calibration refuses
-the start. The driver never lets go by itself: torque stays on at every end of a run, and the task
-decides when to open.
+the start, or leaves a gripper that only opens. The driver never lets go by itself: torque stays on
+at every end of a run, and the task decides when to open.
 """
 
 from __future__ import annotations
@@ -52,26 +52,40 @@ class DynamixelGripper:
     """One or two servos under force control; made by ``connect_gripper``.
 
     A grip that an earlier run left is its state at first: closed, with the force of that grip.
+    Without a calibration it only opens: forces are 0, and ``grip`` and ``adjust`` are refused.
 
     See ``primitives.devices.Gripper`` for the contract of each method. Every command raises
     ``RobotError`` after a fault, ``LimitError`` beyond ``max_force_n`` (nothing is sent then).
     """
 
-    def __init__(self, fingers: ServoFingers, calibration: GripperCalibration) -> None:
-        self._fingers, self._calibration = fingers, calibration
+    def __init__(
+        self, fingers: ServoFingers, calibration: GripperCalibration | None, refusal: str = ""
+    ) -> None:
+        """Take connected fingers.
+
+        Args:
+            fingers: The fingers.
+            calibration: Their force over current; None for a gripper that only opens.
+            refusal: Why there is none; '' where there is one.
+        """
+        self._fingers, self._calibration, self._refusal = fingers, calibration, refusal
         kept_ma = fingers.kept_ma
-        self._force_n = 0.0 if kept_ma is None else calibration.force_n(kept_ma)
-        self._closed = kept_ma is not None
+        self._force_n, self._closed = 0.0, kept_ma is not None
+        if kept_ma is not None and calibration is not None:
+            self._force_n = calibration.force_n(kept_ma)
 
     @property
     def max_force_n(self) -> float:
         """Largest force [N], limited by the calibrated range and by ``max_current_ma``."""
+        if self._calibration is None:
+            return 0.0
         return _largest_n(self._calibration, self._fingers.settings)
 
     @property
     def force_step_n(self) -> float:
         """Least change of the force [N]: that of one unit of current."""
-        return self._calibration.step_n(self._fingers.unit_ma)
+        calibration = self._calibration
+        return 0.0 if calibration is None else calibration.step_n(self._fingers.unit_ma)
 
     @property
     def fault(self) -> str:
@@ -115,17 +129,19 @@ class DynamixelGripper:
         """Current of a force [N].
 
         Raises:
-            LimitError: The force is out of range.
+            LimitError: The force is out of range, or there is no calibration.
             RobotError: The gripper has a fault.
         """
         self._fingers.sent = ""
+        if self._calibration is None:
+            raise LimitError(self._refusal)
         if not (math.isfinite(force_n) and 0 < force_n <= self.max_force_n * (1 + 1e-9)):
             raise LimitError(
                 f"force must lie in (0, {self.max_force_n:.2f}] N (calibrated range, and "
                 f"max_current_ma {self._fingers.settings.max_current_ma:g}), got {force_n}"
             )
         if self.fault:
-            raise RobotError(self.fault)
+            raise self._fingers.poller.error()
         return max(self._fingers.unit_ma, self._calibration.current_ma(force_n))
 
     def open_by(self, clear_m: float) -> GripperState:
@@ -155,6 +171,7 @@ def connect_gripper(
     *,
     folder: Path = Path(),
     today: Callable[[], datetime.date] = datetime.date.today,
+    must_grip: bool = True,
 ) -> DynamixelGripper:
     """Check calibration and servos, and let the servos hold their positions; nothing moves.
 
@@ -162,17 +179,30 @@ def connect_gripper(
         settings: The gripper's section of the rig's file.
         folder: Folder of the rig's file; the calibration's path is relative to it.
         today: Gives the date for the calibration's age.
+        must_grip: Whether a calibration that does not fit is an error; otherwise it is a warning,
+            and the gripper only opens.
 
     Raises:
         RobotError: The calibration does not fit, the port can't be opened, or a check fails.
     """
-    calibration = load_calibration(folder / settings.calibration)
+    path, calibration, reason = folder / settings.calibration, None, ""
+    try:
+        calibration = load_calibration(path)
+    except RobotError as error:
+        if must_grip:
+            raise
+        reason = str(error)
     fingers = connect_fingers(settings)
-    reason = refusal(calibration, settings, adapter=fingers.adapter, today=today())
-    if reason:
+    if calibration is not None:
+        reason = refusal(calibration, settings, adapter=fingers.adapter, today=today())
+        reason = reason and f"{path}: {reason}"
+    if not reason:
+        return DynamixelGripper(fingers, calibration)
+    if must_grip:
         fingers.disconnect()
-        raise RobotError(f"{folder / settings.calibration}: {reason}")
-    return DynamixelGripper(fingers, calibration)
+        raise RobotError(reason)
+    _log.warning("the gripper only opens: %s", reason)
+    return DynamixelGripper(fingers, None, reason)
 
 
 def _largest_n(calibration: GripperCalibration, settings: DynamixelSettings) -> float:
@@ -223,14 +253,15 @@ _finding = partial(finding, "gripper")
 
 def _opening(bus: Bus, settings: DynamixelSettings, folder: Path) -> Finding:
     """Whether the fingers are open, as a run needs them."""
-    width_m, kept_ma, force_n = read_width_m(bus, settings), read_kept_ma(bus, settings), 0.0
+    width_m, kept_ma, grip = read_width_m(bus, settings), read_kept_ma(bus, settings), ""
     detail = f"{1000 * width_m:.1f} mm of {settings.open_width_mm:g} mm"
     if kept_ma is not None:
-        detail += f", gripping with {kept_ma:.0f} mA"
+        grip = f"{kept_ma:.0f} mA"
+        detail += f", gripping with {grip}"
         with suppress(RobotError):  # a finding of its own
             force_n = load_calibration(folder / settings.calibration).force_n(kept_ma)
-    state = GripperState(width_m=width_m, force_n=force_n, closed=kept_ma is not None)
-    problem = opening_problem(state)
+            grip = f"{force_n:.2f} N commanded"
+    problem = opening_problem(width_m, grip)
     return _finding("opening", not problem, detail, f"a run is refused: {problem}")
 
 

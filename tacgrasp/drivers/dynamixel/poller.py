@@ -22,7 +22,7 @@ from concurrent.futures import TimeoutError as FutureTimeoutError
 from dataclasses import dataclass, replace
 from typing import TypeVar
 
-from primitives.errors import RobotError
+from primitives.errors import RobotError, TorqueOffError
 from tacgrasp.drivers.dynamixel import registers as reg
 from tacgrasp.drivers.dynamixel.bus import Bus
 from tacgrasp.drivers.dynamixel.errors import BusError, BusFault
@@ -53,6 +53,7 @@ class ServoPoller:
 
     Attributes:
         fault: The latched fault; empty while there is none.
+        is_limp: Whether a servo was without torque when it was latched.
         num_polls: Number of the last sample; 0 before the first.
     """
 
@@ -71,7 +72,7 @@ class ServoPoller:
         self._began_s = time.monotonic()
         self._jobs: queue.SimpleQueue[Callable[[], None] | None] = queue.SimpleQueue()
         self._changed = threading.Condition()
-        self.fault = ""
+        self.fault, self.is_limp = "", False
         self._sample: PollSample | None = None
         self.num_polls = 0
         self._closed = self._is_busy = False  # busy: a job or a poll is under way
@@ -82,15 +83,19 @@ class ServoPoller:
         """Note what a job has just written to a servo; called by that job, on the I/O thread."""
         self._commanded[servo] = replace(self._commanded[servo], **registers)
 
+    def error(self, otherwise: str = "") -> RobotError:
+        """The latched fault as an error, or another message where there is none."""
+        return (TorqueOffError if self.is_limp else RobotError)(self.fault or otherwise)
+
     def check_alive(self) -> str:
         """Return at once: why the last sample is too old to move by; empty while it is fresh.
 
         Raises:
-            RobotError: The gripper has a fault.
+            RobotError: The gripper has a fault; ``TorqueOffError`` where it has let go.
         """
         sample = self._sample
         if self.fault:
-            raise RobotError(self.fault)
+            raise self.error()
         age_s = time.monotonic() - (self._began_s if sample is None else sample.at_s)
         if age_s <= self._settings.stale_s:
             return ""
@@ -110,7 +115,7 @@ class ServoPoller:
         def poll(_: Bus) -> PollSample:
             self._poll()
             if self.fault or self._sample is None:
-                raise RobotError(self.fault or "the gripper gave no sample")
+                raise self.error("the gripper gave no sample")
             return self._sample
 
         return self.call(poll)
@@ -119,13 +124,14 @@ class ServoPoller:
         """Run a job on the I/O thread and return its result.
 
         Raises:
-            RobotError: The gripper has a fault, the job failed, or the thread does not answer.
+            RobotError: The gripper has a fault (``TorqueOffError`` where it has let go), the job
+                failed, or the thread does not answer.
         """
         result: Future[T] = Future()
 
         def run() -> None:
             if self.fault and not despite_fault:
-                result.set_exception(RobotError(self.fault))
+                result.set_exception(self.error())
                 return
             try:
                 result.set_result(job(self._bus))
@@ -135,7 +141,7 @@ class ServoPoller:
                     self._latch_fault(f"{error}")
 
         if not self._thread.is_alive():
-            raise RobotError(self.fault or "the gripper is disconnected")
+            raise self.error("the gripper is disconnected")
         self._jobs.put(run)
         try:
             return result.result(CALL_S)
@@ -160,7 +166,7 @@ class ServoPoller:
                 ):
                     break
             if self.fault or self._closed:
-                raise RobotError(self.fault or "the gripper is disconnected")
+                raise self.error("the gripper is disconnected")
             if self._sample is None or self._sample.number <= after:
                 raise RobotError(
                     f"the gripper was not polled for {CALL_S:g} s; is this computer overloaded?"
@@ -199,7 +205,7 @@ class ServoPoller:
         try:
             servos = [self._poll_servo(servo) for servo in self._settings.ids]
         except RobotError as error:
-            self._latch_fault(f"{error}")
+            self._latch_fault(f"{error}", is_limp=isinstance(error, TorqueOffError))
             return
         except Exception as error:
             _log.exception("the gripper's polling failed")
@@ -221,7 +227,7 @@ class ServoPoller:
             alert=mode.alert or reply.alert,
             unit_ma=self._unit_ma,
         ):
-            raise RobotError(problem)
+            raise (RobotError if sample.torque else TorqueOffError)(problem)
         if sample.temperature_c > self._settings.max_temperature_c:
             raise RobotError(
                 f"servo {servo} of the gripper is {sample.temperature_c} °C hot, beyond "
@@ -230,7 +236,8 @@ class ServoPoller:
             )
         return sample
 
-    def _latch_fault(self, fault: str) -> None:
+    def _latch_fault(self, fault: str, *, is_limp: bool = False) -> None:
         with self._changed:
-            self.fault = self.fault or fault
+            if not self.fault:
+                self.fault, self.is_limp = fault, is_limp
             self._changed.notify_all()

@@ -12,6 +12,7 @@ import time
 import pytest
 from rich.console import Console
 
+from cltp.errors import TouchError
 from primitives import LimitError
 from primitives.execution import PadAxes
 from primitives.limits import Limits
@@ -128,6 +129,31 @@ def test_no_grip_by_hand_presses_beyond_the_limit_whatever_was_felt_before(rig):
         jogger.carry_out(Grip(force_n=2.0))
     assert 0.5 < rig.gripper.state().force_n < 1.2
     assert 0.3 < rig.truth().peak_force_n <= 1.2
+
+
+def test_opening_takes_a_reference_so_that_a_gel_that_has_drifted_shows_no_contact():
+    rig = build("strawberry", 2, start_offset_mm=(0.0, 0.0))
+    axes = PadAxes(x_tcp=rig.pad_x_in_tcp, y_tcp=rig.pad_y_in_tcp)
+    jogger = Jogger(rig, LIMITS, axes, clear_mm=2.0, limit_n=100.0, max_gain=1.0)
+    rig.gripper.grip(1.0)  # of an earlier run
+    assert "mm deep" in jogger.contact()
+    assert "no reference yet, o takes one" in jogger.contact()
+    assert jogger.carry_out(JogAction.OPEN).startswith("open at ")
+    assert jogger.contact() == "no contact"
+
+
+def test_opening_is_no_matter_of_the_sensor_and_a_missing_reference_is_told(
+    jogger, rig, monkeypatch
+):
+    def silent(*_):
+        raise TouchError("no fresh frame")
+
+    rig.gripper.grip(1.0)
+    monkeypatch.setattr(type(rig.sensor), "take_reference", silent)
+    told = jogger.carry_out(JogAction.OPEN)
+    assert told.startswith("open at ")
+    assert "no new reference" in told and told.endswith("no fresh frame")
+    assert not rig.gripper.state().closed
 
 
 def test_a_step_out_of_the_box_is_refused_and_nothing_moves(jogger, rig):

@@ -306,6 +306,42 @@ def test_a_gripper_opens_alone_while_the_arm_is_stopped_and_the_sensor_silent(
     assert emulators.control.facts("dynamixel")["width_m"] > 0.03
 
 
+CALIBRATIONS = {
+    "missing": (None, "make one with: tacgrasp calibrate gripper"),
+    "old": ("2020-01-31", "days old"),
+    "of the future": ("2120-01-31", "check this computer's clock"),
+}
+
+
+@pytest.mark.parametrize("words", [["--open"], []])
+@pytest.mark.parametrize("calibration", CALIBRATIONS)
+def test_jogging_opens_a_gripper_whatever_its_calibration_is(
+    calibration, words, rig, emulators, tmp_path, capsys, caplog, monkeypatch
+):
+    settings = DynamixelSettings.model_validate(rig["hardware"]["gripper"])
+    caplog.set_level("WARNING", "tacgrasp.drivers.dynamixel.gripper")
+    before = connect_gripper(settings, folder=tmp_path)
+    before.grip(0.3)
+    before.disconnect()
+    date, expected = CALIBRATIONS[calibration]
+    path, made = tmp_path / "mine.yaml", tmp_path / settings.calibration
+    path.write_text(yaml.safe_dump(rig))
+    if date is None:
+        made.unlink()
+    else:
+        made.write_text(re.sub(r"date: \S+", f"date: '{date}'", made.read_text()))
+    width_m = emulators.control.facts("dynamixel")["width_m"]
+    monkeypatch.setattr("sys.stdin", io.StringIO("go"))
+    assert main(["jog", "--rig", str(path), *words]) == 0
+    (warning,) = [x for x in caplog.messages if "the gripper only opens: " in x]
+    assert expected in warning
+    assert words or "refused: " in capsys.readouterr().out  # to grip
+    assert emulators.control.facts("dynamixel")["width_m"] > width_m + 0.001
+    after = connect_gripper(settings, folder=tmp_path, must_grip=False)
+    after.open_by(1.0)
+    after.disconnect()
+
+
 def test_a_grip_that_jogging_leaves_is_told(rig, tmp_path, capsys, monkeypatch):
     path = tmp_path / "mine.yaml"
     path.write_text(yaml.safe_dump(rig))
@@ -445,6 +481,20 @@ def test_doctor_looks_at_the_force_calibration(is_calibrated, rig, tmp_path, cap
     (line,) = [x for x in capsys.readouterr().out.splitlines() if "force calibration" in x]
     assert ("NOT OK" in line, "tacgrasp calibrate force" in line) == (not is_calibrated,) * 2
     assert ("emulated, 0 days old, factor" in line) == is_calibrated
+
+
+def test_doctor_tests_a_sensor_whose_force_calibration_is_missing(rig, tmp_path, capsys):
+    (tmp_path / "force.json").unlink()
+    path = tmp_path / "mine.yaml"
+    path.write_text(yaml.safe_dump(rig))
+    assert main(["doctor", "--rig", str(path)]) == 1
+    lines = [x for x in capsys.readouterr().out.splitlines() if x.startswith("sensor ")]
+    (wrong,) = [x for x in lines if "force.json" in x]
+    assert "force calibration" in wrong and "NOT OK" in wrong
+    for name in ("connection", "fresh frame", "line"):
+        assert any(name in x for x in lines), name
+    (connection,) = [x for x in lines if "connection" in x]
+    assert "NOT OK" not in connection
 
 
 def test_weights_on_real_devices_need_a_person(rig, tmp_path, capsys, monkeypatch):

@@ -7,6 +7,7 @@ import pytest
 
 from cltp import TouchError
 from primitives import RobotError
+from primitives.errors import TorqueOffError
 from sim.grasp.rig import build
 from tacgrasp.base.errors import UsageError
 from tacgrasp.rig.release import FREE_BY_HAND, let_go, opened_afterwards
@@ -58,6 +59,17 @@ def test_a_gripper_that_does_not_open_is_told_with_what_frees_it(error, told):
             raise error
     assert str(raised.value).startswith(told)
     assert str(raised.value).endswith(FREE_BY_HAND)
+
+
+def test_of_a_gripper_without_torque_nothing_may_still_be_held():
+    def limp():
+        raise TorqueOffError("servo 1 has restarted")
+
+    with pytest.raises(RobotError) as raised, opened_afterwards(limp):
+        raise RobotError("servo 1 has restarted")
+    assert str(raised.value) == (
+        "servo 1 has restarted; the gripper has no torque and holds nothing"
+    )
 
 
 def test_a_bug_stays_a_bug_and_has_the_line_beside_it():

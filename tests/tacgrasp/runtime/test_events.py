@@ -62,4 +62,6 @@ def test_the_command_writes_an_array_from_contract_to_end(tmp_path):
     events = [event["event"] for event in json.loads(path.read_text("utf-8"))]
     assert (events[0], events[-1]) == ("contract", "end")
     assert set(events[1:-1]) == {"step"}
+    end = json.loads(path.read_text("utf-8"))[-1]
+    assert (end["reason"], end["safe_state"]) == ("success", "the gripper keeps its grip")
     assert main(argv) == 0  # replaced by the next run

@@ -113,11 +113,32 @@ def test_a_sensor_that_fails_for_a_moment_is_survived_and_one_that_stays_silent_
 
         with monkeypatch.context() as patch:
             patch.setattr(type(rig.sensor), "newest_shear", silent)
-            expected = pytest.raises(TouchError, match="blind") if ends else nullcontext()
+            blind = r"^the reflex was blind: .*; no reading for 0\.5 s$"
+            expected = pytest.raises(TouchError, match=blind) if ends else nullcontext()
             with expected, reflex.keeping(contract, felt(rig)):
                 rig.clock.sleep(2.0)
         assert executor.force_n == before_n
         assert reflex.take_trace().num_blind > 10
+
+
+def test_a_reflex_that_is_blind_says_what_the_sensor_says(monkeypatch):
+    def failed(_):
+        raise TouchError("the taxel array at PORT was unplugged: plug it in")
+
+    says_stale = lambda _: "the taxel array at PORT: no fresh frame; check its cable"  # noqa: E731
+    for check_alive in (says_stale, failed):
+        rig, executor, contract = hold()
+        with monkeypatch.context() as patch:
+            patch.setattr(type(rig.sensor), "newest_shear", lambda _: None)
+            for name, method in (
+                ("check_alive", check_alive),
+                ("expect_untouched", lambda _: None),
+                ("counts", lambda _: None),
+            ):  # as a sensor of a real rig
+                patch.setattr(type(rig.sensor), name, method, raising=False)
+            keeping = ReflexLoop(rig, executor).keeping(contract, felt(rig))
+            with pytest.raises(TouchError, match=r"blind: .* s; the taxel array at PORT"), keeping:
+                rig.clock.sleep(2 * MAX_BLIND_S)
 
 
 def test_a_gripper_that_fails_ends_the_motion():

@@ -8,6 +8,7 @@ import time
 import pytest
 
 from primitives import LimitError, RobotError
+from primitives.errors import TorqueOffError
 from sim.emulators.dynamixel.fingers import SpringLoad
 from tacgrasp.drivers.dynamixel import registers as reg
 from tacgrasp.drivers.dynamixel.calibration import load_calibration
@@ -239,6 +240,21 @@ def test_a_fault_is_detected_and_latched(servos, fault, match):
     assert gripper.fault == first_fault
     gripper.stop()
     gripper.disconnect()
+
+
+@pytest.mark.parametrize(
+    ("fault", "is_limp"),
+    [("overload", True), ("over_temperature", True), ("reboot", True), ("alert", False)],
+)
+def test_a_servo_without_torque_is_known_to_hold_nothing(servos, fault, is_limp):
+    gripper = servos.gripper()
+    gripper.grip(1.0)
+    servos.emulator.inject(fault)
+    assert eventually(lambda: gripper.fault)
+    for call in (gripper.state, gripper.check_alive, lambda: gripper.open_by(0.002)):
+        with pytest.raises(RobotError) as raised:
+            call()
+        assert isinstance(raised.value, TorqueOffError) is is_limp
 
 
 def test_heat_is_noticed_before_the_servo_lets_go(servos):

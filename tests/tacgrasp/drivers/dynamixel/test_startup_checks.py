@@ -6,7 +6,7 @@ import time
 import pytest
 from pydantic import ValidationError
 
-from primitives import RobotError
+from primitives import LimitError, RobotError
 from tacgrasp.drivers.dynamixel import registers as reg
 from tacgrasp.drivers.dynamixel.calibration import load_calibration, save_calibration
 from tacgrasp.drivers.dynamixel.gripper import check, connect_gripper
@@ -111,6 +111,27 @@ def test_a_calibration_that_does_not_fit_is_refused(servos, values, match):
     later = datetime.date.today() + datetime.timedelta(days=31)
     with pytest.raises(RobotError, match=match):
         connect_gripper(servos.settings, folder=servos.folder, today=lambda: later)
+
+
+@pytest.mark.parametrize("calibration", ["missing", "old", "of the future", "of another gripper"])
+def test_a_gripper_opens_and_does_not_grip_whatever_its_calibration_is(servos, calibration, caplog):
+    caplog.set_level("WARNING", "tacgrasp.drivers.dynamixel.gripper")
+    first, days = servos.gripper(), {"old": 91, "of the future": -1}.get(calibration, 0)
+    first.grip(1.0)
+    first.disconnect()
+    if calibration == "missing":
+        (servos.folder / servos.settings.calibration).unlink()
+    elif calibration == "of another gripper":
+        servos.setting(unit="another")
+    date = datetime.date.today() + datetime.timedelta(days=days)
+    gripper = servos.gripper(today=lambda: date, must_grip=False)
+    assert caplog.text.count("the gripper only opens: ") == 1
+    assert (gripper.state().closed, gripper.max_force_n) == (True, 0.0)
+    with pytest.raises(LimitError, match="calibration"):
+        gripper.grip(0.5)
+    width_m = gripper.state().width_m
+    assert gripper.open_by(0.01).width_m == pytest.approx(width_m + 0.01, abs=5e-4)
+    assert not gripper.state().closed
 
 
 def test_after_a_refusal_the_port_is_free(servos):
