@@ -140,6 +140,31 @@ def refuted(
     return reasons
 
 
+def pressed_too_far(contract: Contract, felt: Interval | None, state: ContactState) -> str:
+    """Why a contact is too deep or too large for a contract although its force is in the band.
+
+    A move would grasp again as firmly, so that less force alone can help. '' where it is not so.
+
+    Args:
+        contract: The contract of the step.
+        felt: Force that is felt; None where the measured one counts.
+        state: What is measured of the contact.
+
+    Raises:
+        LimitError: The contract is refused.
+    """
+    force_n = state.force_n if felt is None else felt.value
+    if not state.in_contact or force_n not in contract.terms.force_n:
+        return ""
+    most_mm, most = contract.depth_mm.high, contract.area_fraction.high
+    if state.depth_mm > DEPTH_FACTOR * most_mm:
+        return f"the contact is {state.depth_mm:.2f} mm deep, the contract has {most_mm:.2f} mm"
+    if state.area_fraction > AREA_FACTOR * most:
+        part, most_part = 100 * state.area_fraction, 100 * most
+        return f"the contact takes {part:.0f} % of the pad, the contract has {most_part:.0f} %"
+    return ""
+
+
 def _against_force(contract: Contract, felt: Interval | None) -> dict[Primitive | None, str]:
     """The part of ``refuted`` that the felt force tells."""
     if felt is None:

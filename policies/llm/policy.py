@@ -27,7 +27,7 @@ from cltp.tactile.cloud import TactileCloud
 from cltp.tactile.encoder_input import encoder_input
 from cltp.tactile.measure import contact_state
 from cltp.tactile.states import NO_CONTACT_STATE, NUMBERS
-from policies.contract_steps import refuted
+from policies.contract_steps import pressed_too_far, refuted
 from policies.errors import PolicyError
 from policies.extraction import Extraction, extract
 from policies.llm.grammar import step_grammar
@@ -174,6 +174,8 @@ class LlmPolicy:
         terms = contract.terms
         state = contact_state(observation.cloud, in_contact=observation.in_contact)
         against = refuted(contract, observation.felt_force_n, state)
+        if too_far := pressed_too_far(contract, observation.felt_force_n, state):
+            return loosened(too_far)
         barred = [f"<{action or 'none'}>" for action in against]
         return self.follow(observation, terms.force_n, terms.limit_n, barred)
 
@@ -420,6 +422,13 @@ def by_felt_force(flags: str, felt: Interval, force_n: Band) -> Decision:
         success=False,
         reason=reason,
     )
+
+
+def loosened(reason: str) -> Decision:
+    """The decision on a contact that is pressed too far for the contract, as it is measured."""
+    action = Primitive.DECREASE_FORCE
+    text = f"{reason[0].upper()}{reason[1:]}. Action: <{action}>."
+    return Decision(text=text, action=action, success=False, reason=reason)
 
 
 def repeated_moves(moves: Sequence[Primitive]) -> frozenset[str]:

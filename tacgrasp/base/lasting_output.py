@@ -1,4 +1,4 @@
-"""Output that may lose its reader: a robot goes on, and is made safe, after ``| head`` has ended.
+"""Output that may be lost: a robot goes on, and is made safe, after ``| head`` or on a full disk.
 
 Not here: output of commands that move nothing, which end with their reader.
 """
@@ -14,7 +14,10 @@ from typing import Any, TextIO
 
 @contextmanager
 def lasting_output() -> Iterator[None]:
-    """Let standard output be written to after its reader has gone; what is written then is lost."""
+    """Let standard output be written to when its reader has gone, or its disk is full.
+
+    What can't be written is lost.
+    """
     before = sys.stdout
     sys.stdout = _Lasting(before)
     try:
@@ -24,7 +27,7 @@ def lasting_output() -> Iterator[None]:
 
 
 class _Lasting:
-    """A text stream that leads its output nowhere once nobody reads it."""
+    """A text stream that leads its output nowhere once it can't be written."""
 
     def __init__(self, stream: TextIO) -> None:
         self._stream = stream
@@ -32,14 +35,14 @@ class _Lasting:
     def write(self, text: str) -> int:
         try:
             return self._stream.write(text)
-        except BrokenPipeError:
+        except OSError:
             self._lead_nowhere()
             return len(text)
 
     def flush(self) -> None:
         try:
             self._stream.flush()
-        except BrokenPipeError:
+        except OSError:
             self._lead_nowhere()
 
     def _lead_nowhere(self) -> None:

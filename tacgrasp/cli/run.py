@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import sys
 from collections.abc import Mapping, Sequence
 from contextlib import ExitStack, suppress
 from dataclasses import dataclass
@@ -147,6 +148,8 @@ def _run(config: RunConfig, contract: Contract, events: EventFile, flags: RunFla
         console.print(f"episode: {path}")
         for end_line in end_lines(outcome, config, width_of(console)):
             console.print(end_line)
+        if events.problem:
+            sys.stderr.write(f"tacgrasp: {events.problem}\n")
     return outcome
 
 

@@ -185,7 +185,8 @@ def understood_by_grammar(question: str, before: str = "") -> ReadQuestion | Non
     in_usual = with_counted_parts(question, as_usual=True)
     if meaning is None and in_usual != question:
         meaning = understand(in_usual, before=before)
-    if meaning is None and plain != question:
+    if meaning is None and plain != question and plainer(plain) != question:
+        # 'is 3 N more than 5 N' is plainly 'is 5 N less than 3 N', and that the first again
         return understood_by_grammar(plain, before)
     if meaning is None and not before:
         meaning = _composed(question)

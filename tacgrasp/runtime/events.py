@@ -10,9 +10,11 @@ from __future__ import annotations
 
 import json
 import os
+from contextlib import suppress
+from io import FileIO
 from pathlib import Path
 from types import TracebackType
-from typing import IO, Any
+from typing import Any
 
 from primitives.contract import Contract
 from tacgrasp.base.errors import UsageError
@@ -23,12 +25,19 @@ from tacgrasp.runtime.outcome import Outcome
 
 
 class EventFile:
-    """Writes events to a file as they come; without a file it does nothing."""
+    """Writes events to a file as they come; without a file it does nothing.
+
+    A file that can't be written any more, as on a full disk, ends there, and the run goes on.
+
+    Attributes:
+        problem: Why the file lacks what came later; '' where it lacks nothing.
+    """
 
     def __init__(self, path: Path | None) -> None:
         self._path = path
-        self._file: IO[bytes] | None = None
+        self._file: FileIO | None = None
         self._is_array = self._is_empty = False
+        self.problem = ""
 
     def __enter__(self) -> EventFile:
         """Open the file.
@@ -38,7 +47,7 @@ class EventFile:
         """
         if self._path is not None:
             try:
-                self._file = self._path.open("wb")
+                self._file = FileIO(self._path, "wb")
             except OSError as error:
                 raise UsageError(f"--json {self._path} can't be written: {error}") from None
             is_json = self._path.resolve().suffix.lower() == ".json"
@@ -124,11 +133,27 @@ class EventFile:
             start = "[\n" if self._is_empty else ",\n"
             if not self._is_empty:
                 self._file.seek(-len(_CLOSED), os.SEEK_CUR)
-            text, self._is_empty = start + text + _CLOSED, False
+            text, self._is_empty = start + text + _CLOSED.decode(), False
         else:
             text += "\n"
-        self._file.write(text.encode("utf-8"))  # one piece: the array is never seen open
-        self._file.flush()
+        self._append(text.encode("utf-8"))
+
+    def _append(self, data: bytes) -> None:
+        """Write in one piece, so that the array is never seen open; or leave the file as it was."""
+        assert self._file is not None
+        whole, done = self._file.tell() if self._file.seekable() else None, 0
+        try:
+            while done < len(data):
+                done += self._file.write(data[done:]) or 0
+        except OSError as error:
+            self.problem = f"--json {self._path}: {error.strerror}; what came later is not in it"
+            with suppress(OSError), self._file:
+                if whole is not None:
+                    self._file.truncate(whole)
+                    if self._is_array and whole > 0:
+                        self._file.seek(whole)
+                        self._file.write(_CLOSED)
+            self._file = None
 
 
-_CLOSED = "\n]\n"
+_CLOSED = b"\n]\n"

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from cltp.tactile.states import Area, ContactState, Depth, Position
-from policies.contract_steps import CLEARLY, beyond, softened, target_of
+from policies.contract_steps import CLEARLY, beyond, pressed_too_far, softened, target_of
 from primitives import LimitError, Primitive
 from primitives.contract import Band, Contract
 from primitives.sense import Interval
@@ -108,3 +108,25 @@ def test_a_soft_contact_holds_a_hard_contract_to_the_terms_of_soft_ones():
 
 def test_where_nothing_may_object_the_contract_stays():
     assert softened(NARROW) is NARROW
+
+
+@pytest.mark.parametrize(
+    ("changed", "force_n", "said"),
+    [
+        ({"depth_mm": 1.0}, 1.2, "1.00 mm deep, the contract has 0.70 mm"),
+        ({"depth_mm": 1.0}, None, "1.00 mm deep"),
+        ({"depth_mm": 0.8}, 1.2, ""),  # within what the measurement errs
+        ({"depth_mm": 1.0}, 2.5, ""),  # too firm, which the force tells
+        ({"depth_mm": 1.0}, 0.5, ""),
+        ({}, 1.2, ""),
+    ],
+)
+def test_too_deep_a_contact_of_the_right_force_is_known(changed, force_n, said):
+    reading = None if force_n is None else felt(force_n)
+    found = pressed_too_far(NARROW, reading, replace(HELD, **changed))
+    assert (said in found) if said else found == ""
+
+
+def test_too_large_a_contact_of_the_right_force_is_known():
+    small = replace(NARROW, area_fraction=Band(low=0.0, high=0.05))
+    assert "10 % of the pad, the contract has 5 %" in pressed_too_far(small, felt(1.2), HELD)

@@ -474,6 +474,16 @@ def test_what_is_clearly_felt_bars_the_decisions_against_it(
     assert asked[0] == barred
 
 
+def test_a_contact_too_deep_for_the_contract_is_loosened_and_never_moved(untrained: Path) -> None:
+    shallow = replace(contract(0.95, 1.9, 2.4), depth_mm=Band(low=0.0, high=0.1))
+    felt = Interval(value=1.2, low=1.0, high=1.5)
+    decision = LlmPolicy(untrained).decide(Observation(cloud=touch(), felt_force_n=felt), shallow)
+
+    assert decision.action is Primitive.DECREASE_FORCE
+    assert not decision.success
+    assert "the contract has 0.10 mm" in decision.reason
+
+
 @pytest.mark.parametrize(
     ("force_n", "expected"),
     [

@@ -25,6 +25,21 @@ def test_what_nobody_reads_is_lost_and_raises_nothing(monkeypatch):
         assert sys.stdout is stream
 
 
+def test_what_finds_no_place_is_lost_and_raises_nothing(monkeypatch):
+    with Path("/dev/full").open("w") as stream:
+        monkeypatch.setattr(sys, "stdout", stream)
+        with lasting_output():
+            sys.stdout.write("text\n")
+            sys.stdout.flush()
+            sys.stdout.write("text\n")
+
+
+def test_a_command_without_an_output_ends_as_any_other():
+    command = f"exec {sys.executable} -m tacgrasp --version >&-"
+    child = subprocess.run(["sh", "-c", command], cwd=ROOT, stderr=subprocess.PIPE, text=True)
+    assert (child.returncode, child.stderr) == (0, "")
+
+
 def test_a_run_whose_output_is_cut_off_ends_as_any_other(tmp_path):
     command = [sys.executable, "-m", "tacgrasp", "run", "--policy", "rules", "--seed", "6"]
     child = subprocess.Popen(

@@ -2,6 +2,7 @@
 
 import json
 import os
+import resource
 import threading
 
 import pytest
@@ -53,6 +54,31 @@ def test_a_pipe_gets_an_object_a_line_whatever_its_name(tmp_path):
         events.contract(CONTRACT)
     reader.join(10)
     assert [json.loads(line)["event"] for line in received] == ["contract", "contract"]
+
+
+def test_a_file_on_a_full_disk_ends_there_and_raises_nothing(tmp_path):
+    path = tmp_path / "full.jsonl"
+    path.symlink_to("/dev/full")
+    with EventFile(path) as events:
+        events.contract(CONTRACT)
+        events.step(scaled_step(UNCALIBRATED))
+    assert str(path) in events.problem
+    assert "what came later is not in it" in events.problem
+
+
+def test_an_array_that_can_t_grow_keeps_what_it_has(tmp_path):
+    path = tmp_path / "events.json"
+    soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
+    with EventFile(path) as events:
+        events.contract(CONTRACT)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (path.stat().st_size + 20, hard))
+        try:
+            events.step(scaled_step(UNCALIBRATED))
+        finally:
+            resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
+        events.step(scaled_step(UNCALIBRATED))
+    assert events.problem
+    assert [event["event"] for event in json.loads(path.read_text("utf-8"))] == ["contract"]
 
 
 def test_the_command_writes_an_array_from_contract_to_end(tmp_path):

@@ -66,6 +66,9 @@ _PATTERNS = (
     rf"\b(?:depth|deep|indentation|dent)\b{_SAME} in (?:grams?|g|kg|kilos?|newtons?|m?n|percent)\b",
     rf"\b(?:force|squeeze)\b{_SAME} in (?:mm|millimet\w+|microns?|micromet\w+|[µu]m|cm)\b",
     rf"\b(?:area|patch|footprint)\b{_SAME} in (?:grams?|g|newtons?|m?n)\b",
+    # two numbers that are named, neither of them felt
+    rf"^(?:is|are|does|do|would) {_NUMBER} ?\w+ "
+    rf"(?:exceed|beat|surpass|(?:\w+ ){{0,2}}?\w+ than) {_NUMBER}",
     # denials that nothing reads
     r"\bneither\b.*\bnor\b",
 )
