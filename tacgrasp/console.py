@@ -104,11 +104,15 @@ class StepPrinter:
     Args:
         console: Where to.
         verbose: Whether each step is printed whole: all of D_t, the command as sent, the durations.
+        started_s: Time that is counted from, on the clock of the steps [s]; the first step's when
+            not given.
     """
 
-    def __init__(self, console: Console, *, verbose: bool = False) -> None:
+    def __init__(
+        self, console: Console, *, verbose: bool = False, started_s: float | None = None
+    ) -> None:
         self._console, self._verbose = console, verbose
-        self._started_s: float | None = None
+        self._started_s = started_s
 
     def __call__(self, record: StepRecord) -> None:
         if self._started_s is None:

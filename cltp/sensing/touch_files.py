@@ -20,7 +20,7 @@ from cltp.errors import TouchError
 from cltp.sensing.cloud_formats import read_pcd, read_ply, read_xyz
 from cltp.sensing.frames import FRAME_SUFFIXES, read_frame
 from cltp.sensing.numpy_files import read_npy, read_npz, sensor_in_npz
-from cltp.tactile.cloud import TactileCloud, cloud_from_heights, grid_axes_mm
+from cltp.tactile.cloud import TactileCloud, check_relief, cloud_from_heights, grid_axes_mm
 from cltp.tactile.sensors import SENSORS, SensorSpec
 
 ASPECT_TOLERANCE = 0.05
@@ -34,9 +34,6 @@ MAX_FILE_BYTES = 64_000_000
 
 LEAST_COLUMNS = 8
 """An array of fewer columns, which is no height map, may be meant as a cloud."""
-
-METRES_MM = 2e-3
-"""A map whose whole relief is below this is in metres: a gel's own noise is 10 µm. Our choice."""
 
 
 def read_cloud(
@@ -189,7 +186,9 @@ def _cloud_of(array: NDArray[np.float64], sensor: SensorSpec) -> TactileCloud:
         )
     if array.shape[1] == 3:
         with np.errstate(over="ignore"):  # beyond float32 is beyond any sensor, and refused as such
-            return TactileCloud(points_mm=array.astype(np.float32), sensor=sensor)
+            cloud = TactileCloud(points_mm=array.astype(np.float32), sensor=sensor)
+        check_relief(cloud.points_mm[:, 2])
+        return cloud
     rows, columns = array.shape
     expected = sensor.columns / sensor.rows
     if rows == 0 or columns == 0 or abs(columns / rows / expected - 1) > ASPECT_TOLERANCE:
@@ -200,12 +199,8 @@ def _cloud_of(array: NDArray[np.float64], sensor: SensorSpec) -> TactileCloud:
             f"{or_cloud}"
         )
     if np.isfinite(array).all():
-        relief, highest = float(np.ptp(array)), float(np.abs(array).max())
-        if 0 < relief < METRES_MM:
-            raise TouchError(
-                f"the height map's whole relief is {relief:.2g}, below a gel's noise in mm; "
-                "is it in metres? Multiply by 1000"
-            )
+        check_relief(array, name="height map")
+        highest = float(np.abs(array).max())
         if highest > sensor.gel_mm:
             raise TouchError(
                 f"heights reach {highest:.3g} mm, more than the {sensor.gel_mm} mm gel of "

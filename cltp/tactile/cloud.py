@@ -138,6 +138,32 @@ _FINER = 10.0
 _IN_MICRONS = "is it in µm? Divide by 1000"
 
 
+METRES_MM, ROUNDING_MM = 2e-3, 1e-5
+"""Relief, between which a gel in mm shows none, and one in metres any press of 0.01 to 2 mm. Our
+choice: an untouched gel's noise is 0.001 mm and more, of each of 64 points or more, and one without
+noise is flat but for rounding. Centimetres can't be told from a gel with little noise."""
+
+
+def check_relief(heights_mm: NDArray[np.floating], *, name: str = "cloud") -> None:
+    """Refuse finite heights that seem to be in metres, of a file or from elsewhere.
+
+    Not for a live sensor: what it counts may be as coarse as 0.001 mm, and nearly without noise.
+
+    Args:
+        heights_mm: Heights of any shape, at least one [mm].
+        name: What they are, for the message.
+
+    Raises:
+        TouchError: Their whole relief is below a gel's noise, but for rounding.
+    """
+    relief = float(np.ptp(heights_mm))
+    if ROUNDING_MM < relief < METRES_MM:
+        raise TouchError(
+            f"the {name}'s whole relief is {relief:.2g}, below a gel's noise in mm; "
+            "is it in metres? Multiply by 1000"
+        )
+
+
 def checked_heights(height_mm: NDArray[np.floating]) -> FloatArray:
     """A height map as float64, in the same unit.
 

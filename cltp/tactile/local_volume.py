@@ -1,7 +1,8 @@
 """The volume that a contact displaces, without what is only tilted, broad or elsewhere.
 
 A contact is local: a plane and a quadratic surface, fitted to the cells around it, take away tilt
-and broad drift, and only the region around the strongest local response counts.
+and broad drift, and only the region around the strongest local response counts. Drift that is as
+high as the foot of a contact adjoins it there, and is left out (``without_drift``).
 
 Not here: the force that follows from it (``cltp.tactile.measure``), the test whether there is a
 contact at all (``cltp.tactile.contact.contact_test``). Loads no torch.
@@ -18,7 +19,7 @@ from scipy import ndimage
 
 from cltp.tactile.cells import quadratic_basis, smoothed
 from cltp.tactile.cloud import FloatArray, grid_axes_mm
-from cltp.tactile.sensor_noise import MINI_SPREAD, SPREADS
+from cltp.tactile.sensor_noise import MINI_SPREAD, SPREADS, drift_in
 from cltp.tactile.sensors import SensorSpec
 
 BoolArray = NDArray[np.bool_]
@@ -35,8 +36,23 @@ NOISE_FACTOR = 1.25
 1, 5 % of 1000 untouched frames read more than 0.2 N if taken for contacts, with 1.5, 2 %; but
 contacts of 0.1 to 0.2 N then read 4 % lower than with 1."""
 
-SCALE_MM = 1.6
-"""Width of the inner Gaussian of the local response [mm], about half that of a light contact."""
+SCALE_MM = 1.0
+"""Width of the inner Gaussian of the response that a contact is found by [mm]. Source: of 133
+simulated light presses (below 0.5 N) with the noise of a GelSight Mini, drift is taken for the
+contact in 3; with 1.6 mm in 16."""
+
+WIDE_SCALE_MM = 1.6
+"""The same for ``WIDE_RESPONSE_MM`` [mm]."""
+
+UPPER_FRACTION = 0.5
+"""The upper part of a contact is deeper than this fraction of the depth. Our choice."""
+
+FAR_MM, FAR_PART = 1.0, 0.6
+"""Distance from the upper part of a contact, at least [mm] and over the radius of a disc of that
+size, beyond which what drift can reach is drift. Our choice: a rigid ball ends at 0.41 of it."""
+
+REACHED_DRIFTS = 3.0
+"""Standard deviations of drift that it can reach. Our choice."""
 
 SLOPE_SCALE_MM = 0.6
 """Width of the Gaussian that heights are smoothed with before their slope is taken [mm]."""
@@ -88,9 +104,11 @@ def local_contact(cells_mm: FloatArray, sensor: SensorSpec) -> LocalContact:
         cells_mm: Shape (n, n), mean indentation in equal cells of the sensing area [mm].
         sensor: The sensor.
     """
-    near, response_mm = _near_strongest(cells_mm, sensor)
+    near = _near_strongest(cells_mm, sensor)
     noise_mm = NOISE_FACTOR * white_noise_mm(cells_mm)
-    is_wide = response_mm >= WIDE_RESPONSE_MM and _is_mostly_raised(cells_mm, sensor)
+    is_wide = _responses(cells_mm, sensor, WIDE_SCALE_MM).max() >= WIDE_RESPONSE_MM and (
+        _is_mostly_raised(cells_mm, sensor)
+    )
     if is_wide:  # near the strongest response of a flat top is any of its places
         near = np.ones_like(near)
     background: FloatArray | float = 0.0 if is_wide else float(np.median(cells_mm))
@@ -98,16 +116,44 @@ def local_contact(cells_mm: FloatArray, sensor: SensorSpec) -> LocalContact:
         local = cells_mm - background
         depth = float(np.sort(local[near])[-_DEEPEST_CELLS:].mean())
         level = max(FRACTION * depth, LEAST_MM, noise_mm)
-        regions, _ = ndimage.label(local > level)
-        region = regions.flat[int(np.where(near, local, -np.inf).argmax())]
-        if region == 0:
+        deepest = int(np.where(near, local, -np.inf).argmax())
+        contact = _region_of(deepest, local > level)
+        if not contact.any():
             return LocalContact(heights_mm=local, volume_mm3=0.0)
-        contact = regions == region
+        if not is_wide:
+            contact = _region_of(deepest, without_drift(contact, local, depth, sensor))
         if not is_last and not is_wide:
             background = _background(cells_mm, contact, sensor)
     cell_mm2 = sensor.area_mm2 / cells_mm.size
     volume_mm3 = float((local[contact] - level).sum() * cell_mm2)
     return LocalContact(heights_mm=local, volume_mm3=volume_mm3)
+
+
+def without_drift(
+    contact: BoolArray, heights_mm: FloatArray, depth_mm: float, sensor: SensorSpec
+) -> BoolArray:
+    """The cells of a contact without those that are far from its upper part and may be drift.
+
+    Args:
+        contact: Shape (n, n), cells that are deeper than the foot of the contact.
+        heights_mm: Shape (n, n), heights over the surface that surrounds the contact [mm].
+        depth_mm: Depth of the contact [mm].
+        sensor: The sensor.
+    """
+    upper = contact & (heights_mm > UPPER_FRACTION * depth_mm)
+    rows, columns = contact.shape
+    pitch_mm = (sensor.height_mm / rows, sensor.width_mm / columns)
+    radius_mm = math.sqrt(np.count_nonzero(upper) * math.prod(pitch_mm) / math.pi)
+    distance_mm = ndimage.distance_transform_edt(~upper, sampling=pitch_mm)
+    drift_mm = REACHED_DRIFTS * drift_in(heights_mm, SPREADS.get(sensor.name, MINI_SPREAD))
+    is_far = distance_mm > max(FAR_MM, FAR_PART * radius_mm)
+    return np.asarray(contact & ~(is_far & (heights_mm < drift_mm)))
+
+
+def _region_of(cell: int, mask: BoolArray) -> BoolArray:
+    """The connected cells of a mask that hold one cell; none where that is not in the mask."""
+    regions, _ = ndimage.label(mask)
+    return np.asarray(mask & (regions == regions.flat[cell]))
 
 
 def _is_mostly_raised(cells_mm: FloatArray, sensor: SensorSpec) -> bool:
@@ -136,18 +182,22 @@ def white_noise_mm(heights_mm: FloatArray) -> float:
     return 1.4826 * float(np.median(np.abs(inner - around / 4))) / math.sqrt(1.25)
 
 
-def _near_strongest(heights_mm: FloatArray, sensor: SensorSpec) -> tuple[BoolArray, float]:
-    """Cells near the strongest response of a band filter less a plane, and that response [mm]."""
+def _near_strongest(heights_mm: FloatArray, sensor: SensorSpec) -> BoolArray:
+    """Cells near the strongest response of the band filter that a contact is found by."""
+    responses = _responses(heights_mm, sensor, SCALE_MM)
+    row, column = np.unravel_index(int(responses.argmax()), heights_mm.shape)
+    x, y = grid_axes_mm(sensor, *heights_mm.shape)
+    return np.asarray(np.hypot(x[None, :] - x[column], y[:, None] - y[row]) < REACH_MM)
+
+
+def _responses(heights_mm: FloatArray, sensor: SensorSpec, scale_mm: float) -> FloatArray:
+    """Responses (n, n) of a band filter to heights less a plane [mm]."""
     everywhere = np.ones_like(heights_mm, dtype=bool)
     plane = _fitted(quadratic_basis(len(heights_mm), sensor)[:, :3], heights_mm, everywhere)
     inner, outer = (
-        smoothed(heights_mm - plane, sensor, scale) for scale in (SCALE_MM, 2 * SCALE_MM)
+        smoothed(heights_mm - plane, sensor, scale) for scale in (scale_mm, 2 * scale_mm)
     )
-    responses = inner - outer
-    row, column = np.unravel_index(int(responses.argmax()), heights_mm.shape)
-    x, y = grid_axes_mm(sensor, *heights_mm.shape)
-    near = np.hypot(x[None, :] - x[column], y[:, None] - y[row]) < REACH_MM
-    return np.asarray(near), float(responses[row, column])
+    return inner - outer
 
 
 def _background(

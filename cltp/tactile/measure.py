@@ -14,7 +14,7 @@ from scipy import ndimage
 
 from cltp.tactile.cells import cell_means, filled
 from cltp.tactile.cloud import FloatArray, TactileCloud, grid_axes_mm
-from cltp.tactile.local_volume import local_contact
+from cltp.tactile.local_volume import UPPER_FRACTION, local_contact, without_drift
 from cltp.tactile.sensors import SensorSpec
 from cltp.tactile.states import (
     NO_CONTACT_STATE,
@@ -38,7 +38,6 @@ FOOTPRINT_FRACTION = 0.25
 berries, tomatoes, eggs and pegs: the area class is then right most often (69 %). Flat punches would
 want 0.5 and soft textures less; a learned encoder can tell them apart, this computation can't."""
 
-_BODY_FRACTION = 0.5  # what is deeper than this fraction of the depth gives the position
 _REGION_FRACTION = 0.3  # a region of less than this fraction of the largest one is drift
 _DEEPEST_CELLS = 3  # cells whose mean is the depth: one alone is at the mercy of the noise
 
@@ -57,7 +56,7 @@ def contact_state(cloud: TactileCloud, *, in_contact: bool | None = None) -> Con
     from the volume that is displaced locally [nominal N], so that tilt and broad drift are no
     force, times the factor of the unit's force calibration. Where a test has shown a contact, the
     other numbers are taken over the surface around it too: broad drift may have lowered the whole
-    pad below its reference.
+    pad below its reference. What drift may have raised far from the contact is then no area.
 
     The last results are kept: within one step policy, contract, record and screen measure the
     same cloud.
@@ -87,6 +86,8 @@ def _measure(cloud: TactileCloud, in_contact: bool | None) -> ContactState:
     x, y = grid_axes_mm(cloud.sensor, *heights.shape)
     x_mm, y_mm = _centroid_mm(heights, depth, x, y)
     footprint = heights > FOOTPRINT_FRACTION * depth
+    if in_contact:
+        footprint = without_drift(footprint, heights, depth, cloud.sensor)
     fraction = float(footprint.mean())
     return ContactState(
         depth_mm=depth,
@@ -97,7 +98,7 @@ def _measure(cloud: TactileCloud, in_contact: bool | None) -> ContactState:
         depth=depth_word(depth),
         position=position_word(x_mm, y_mm, cloud.sensor),
         area=area_word(fraction),
-        cut=cut_sides(heights > _BODY_FRACTION * depth, least=3, width=2),
+        cut=cut_sides(heights > UPPER_FRACTION * depth, least=3, width=2),
     )
 
 
@@ -110,7 +111,7 @@ def _centroid_mm(
     depths: FloatArray, depth: float, x: FloatArray, y: FloatArray
 ) -> tuple[float, float]:
     """Centroid [mm] of what is deeper than half, without the stray regions that drift makes."""
-    weight = np.clip(depths - _BODY_FRACTION * depth, 0, None)
+    weight = np.clip(depths - UPPER_FRACTION * depth, 0, None)
     regions, count = ndimage.label(weight > 0, structure=np.ones((3, 3)))
     sums = ndimage.sum_labels(weight, regions, np.arange(1, count + 1))
     stray = np.flatnonzero(sums < _REGION_FRACTION * sums.max()) + 1

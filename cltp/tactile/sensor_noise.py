@@ -120,6 +120,26 @@ def spread_of(sensor: SensorSpec) -> NoiseSpread:
         raise TouchError(f"no noise known for sensor {sensor.name!r}; known: {names}") from None
 
 
+def drift_in(cells_mm: NDArray[np.floating], spread: NoiseSpread) -> float:
+    """Drift that one frame may have, standard deviation [mm].
+
+    That of its sensor, or less where half of the pad lies within far less, as in a simulated cloud
+    without noise.
+
+    Args:
+        cells_mm: Heights in equal cells of the sensing area, none of them empty [mm].
+        spread: Noise of the sensor.
+    """
+    seen_mm = 1.4826 * float(np.median(np.abs(cells_mm - np.median(cells_mm))))
+    return min(spread.drift_mm, max(SEEN_FACTOR * seen_mm, LEAST_DRIFT * spread.drift_mm))
+
+
+SEEN_FACTOR, LEAST_DRIFT = 8.0, 1 / 8
+"""Drift that a single frame may have over the spread of its heights, and the least one over that of
+its sensor: 0.005 mm of a GelSight Mini. Our choice: a pad holds few independent places of drift, so
+that its spread is a poor estimate; that of a calibrated unit changes nothing."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NoiseUnit:
     """The errors of one sensor unit, which stay the same for an episode.

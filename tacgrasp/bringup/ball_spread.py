@@ -14,9 +14,9 @@ import numpy as np
 
 from cltp.errors import TouchError
 from cltp.sensing.ball_fit import fit_ball
-from cltp.sensing.ball_presses import find_press
 from cltp.sensing.photometric import Photometer
 from cltp.tactile.sensors import SensorSpec
+from cltp.train.photometric.calibrate import find_presses
 from tacgrasp.bringup.ball_frames import BallFrames
 
 
@@ -29,16 +29,11 @@ def spread_presses(
     without a ball are in neither part.
 
     Raises:
-        TouchError: There are not so many frames with a ball, and one more.
+        TouchError: Fewer than ``MIN_PRESSES`` frames show a ball, as without a choice; or there are
+            not ``count`` of them, and one more.
     """
-    places, found = [], []
-    for index, frame in enumerate(balls.frames):
-        try:
-            press = find_press(frame, balls.background, sensor, diameter_mm)
-        except TouchError:
-            continue
-        found.append(index)
-        places.append((press.column, press.row))
+    found, presses, _ = find_presses(balls.frames, balls.background, sensor, diameter_mm)
+    places = [(press.column, press.row) for press in presses]
     if not 1 <= count < len(found):
         raise TouchError(
             f"a ball shows in {len(found)} of {len(balls.frames)} frames: --presses must be 1 to "

@@ -25,6 +25,8 @@ def import_table(request: ImportRequest) -> None:
 
     counts, out = import_touches(request), make_console()
     out.print(f"written   {request.out}: {counted(counts.contacts, 'contact')}")
+    if counts.untouched:
+        out.print(f"untouched {counts.untouched} with no contact, not counted below")
     for slot in counts.given:
         out.print(
             f"{slot:9} {counts.given[slot]} given, {counts.measured[slot]} measured, "

@@ -149,11 +149,8 @@ class DrawFlags:
         from cltp.data.dataset import ContactDataset
         from tacgrasp.datasets.contact_sheet import draw_contacts
 
-        if self.contacts < 1 or self.seed < 0:
-            raise UsageError(
-                "expected at least 1 contact and a seed from 0, "
-                f"got {self.contacts} contacts, seed {self.seed}"
-            )
+        if self.contacts < 1:
+            raise UsageError(f"--contacts must be at least 1, got {self.contacts}")
         data = ContactDataset(self.folder, partial=True)
         return data, draw_contacts(len(data), self.contacts, self.seed)
 

@@ -43,8 +43,8 @@ class OwnFlags:
     json: Path | None = None
 
     def __post_init__(self) -> None:
-        if min(self.contacts, self.threads) < 1 or self.seed < 0:
-            raise UsageError("--contacts and --threads must be at least 1, --seed at least 0")
+        if min(self.contacts, self.threads) < 1:
+            raise UsageError("--contacts and --threads must be at least 1")
 
 
 def main(argv: Sequence[str]) -> None:
@@ -52,6 +52,10 @@ def main(argv: Sequence[str]) -> None:
     flags = parse(OwnFlags, argv, prog="tacgrasp eval own")
     writable(flags.json)
     contacts_in(flags.data, command="tacgrasp data generate --set full")
+    if flags.also.resolve() == flags.data.resolve():
+        raise UsageError(
+            f"--also {flags.also} is the folder of --data too; name that of your own contacts"
+        )
     import torch
 
     from cltp.train.progress import Bar

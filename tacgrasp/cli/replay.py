@@ -57,6 +57,7 @@ def main(argv: Sequence[str]) -> int:
     from tacgrasp.console import StepPrinter, make_console, truth_text
     from tacgrasp.episodes import read_episode
     from tacgrasp.episodes.record import NO_END, end_label
+    from tacgrasp.playback.replay import lacks_first_step, times_from_s
 
     episode = read_episode(flags.episode)
     console = make_console()
@@ -68,7 +69,9 @@ def main(argv: Sequence[str]) -> int:
         return _execute(episode, flags.episode, console)
     header, end = episode.header, episode.end
     console.print(f"{header.task} with {header.policy}, seed {header.seed}: {header.instruction}")
-    print_step = StepPrinter(console, verbose=flags.verbose)
+    if lacks_first_step(episode):
+        console.print("times: since the start of the episode, as its first step is missing")
+    print_step = StepPrinter(console, verbose=flags.verbose, started_s=times_from_s(episode))
     for step in episode.steps:
         print_step(step)
     if end is None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from tacgrasp.cli.flags import run_subcommand
+from tacgrasp.cli.flags import run_subcommand, writable
 from tacgrasp.datasets.requests import PressRequest
 
 
@@ -15,6 +15,7 @@ def main(argv: Sequence[str]) -> int:
 
 
 def _press(request: PressRequest) -> None:
+    writable(request.out, ".npz", flag="--out")
     from tacgrasp.datasets.press import run
 
     run(request)

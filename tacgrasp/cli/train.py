@@ -168,6 +168,15 @@ class TrainCltpFlags(TrainMethodFlags):
         if self.learning_rate is not None and not self.learning_rate > 0:
             raise UsageError(f"--learning-rate must be above 0, got {self.learning_rate:g}")
 
+    def train(self, stage: str, command: str) -> None:
+        """As every stage, after a check that the encoder to start from can be used."""
+        if self.start is not None:
+            from cltp.checkpoints.tac3d_llm import load_encoder
+            from tacgrasp.policy_factory import named_weights
+
+            load_encoder((named_weights(self.start) or self.start) / "encoder")
+        super().train(stage, command)
+
     def train_in(self, run: PretrainingRun, stage: str) -> None:
         from tacgrasp.policy_factory import named_weights
         from tacgrasp.pretraining.methods import pretrain

@@ -11,7 +11,9 @@ noise included, as ``describe`` measures them. The force is estimated by a law t
 GelSight Mini's gel. The contact's ``measured`` names all that was measured. Numbers are always
 measured, except a depth or a force that the table gives.
 
-Nothing is written unless every row is good.
+A depth or an area that the heights refute by far is a bad row: most often its unit is another one.
+Nothing is written unless every row is good. A row without contact has no labels, and is counted as
+such.
 """
 
 from __future__ import annotations
@@ -50,6 +52,7 @@ from cltp.tactile.states import (
     depth_word,
 )
 from tacgrasp.base.errors import UsageError
+from tacgrasp.datasets.refuted_labels import refuted_area, refuted_depth, refuted_number
 from tacgrasp.datasets.requests import ImportRequest
 
 COLUMNS = ("file", *DIMENSIONS, "force_n", "object", "split", "series")
@@ -78,12 +81,14 @@ class ImportCounts:
     """Numbers of imported contacts.
 
     Attributes:
-        contacts: Number of contacts.
-        given, measured, unknown: Number of contacts, by dimension and for the force, whose label
-            the table gives, was measured, or is unknown.
+        contacts: Number of contacts, and of rows without contact.
+        untouched: Number of rows without contact.
+        given, measured, unknown: Number of the other ones, by dimension and for the force, whose
+            label the table gives, was measured, or is unknown.
     """
 
     contacts: int
+    untouched: int
     given: Mapping[str, int]
     measured: Mapping[str, int]
     unknown: Mapping[str, int]
@@ -161,6 +166,7 @@ def _write(
     slots, origins = (*DIMENSIONS, "force_n"), ("given", "measured", "unknown")
     counts = {origin: dict.fromkeys(slots, 0) for origin in origins}
     lines: dict[str, int] = {}
+    untouched = 0
     held_out = _held_out(rows, source.held_out, source.seed)
     about = {
         "made_by": "tacgrasp data import",
@@ -182,11 +188,12 @@ def _write(
                 bad.append(f"{source.labels.name} line {row.line} ({name}): {text}")
                 continue
             lines[path] = row.line
-            for slot in slots:
+            untouched += not contact.state.in_contact
+            for slot in slots if contact.state.in_contact else ():
                 counts[_origin(contact, slot)][slot] += 1
             if not bad:
                 writer.add(contact)
-    return ImportCounts(contacts=writer.num_written, **counts), bad
+    return ImportCounts(contacts=writer.num_written, untouched=untouched, **counts), bad
 
 
 def _origin(contact: Contact, slot: str) -> str:
@@ -237,6 +244,8 @@ def _contact(
     is_told = source.least_depth_mm != NO_CONTACT_MM or any(name in cells for name in DIMENSIONS)
     touching = highest >= source.least_depth_mm if is_told else None
     measured_state = contact_state(cloud, in_contact=touching)
+    if measured_state.in_contact:
+        _check_labels(cells, measured_state, highest)
     state, measured = _with_labels(measured_state, cells, source.least_depth_mm)
     return Contact(
         height_mm=heights,
@@ -266,6 +275,22 @@ def _with_labels(
     return dataclasses.replace(state, **labels), measured  # type: ignore[arg-type]
 
 
+def _check_labels(cells: Mapping[str, str], measured: ContactState, highest_mm: float) -> None:
+    """Refuse a depth or an area that the heights refute."""
+    depth_mm, refuted = measured.depth_mm, ""
+    if "depth" in cells and NUMBER.match(cells["depth"]):
+        told_mm = _float(cells["depth"])
+        if 0 < told_mm < math.inf:  # else it is refused as no depth
+            refuted = refuted_number(told_mm, depth_mm, highest_mm)
+    elif (depth := _word(Depth, "depth", cells)) is not None:
+        refuted = refuted_depth(depth, depth_mm, highest_mm)
+    area = _word(Area, "area", cells)
+    if not refuted and area is not None:
+        refuted = refuted_area(area, measured.area_fraction, depth_mm)
+    if refuted:
+        raise RowError(refuted)
+
+
 def _labels(cells: Mapping[str, str]) -> Iterator[tuple[str, object]]:
     """Fields of a state in a row of the table."""
     for slot, kind in (("shape", Shape), ("texture", Texture), ("position", Position)):
@@ -292,10 +317,15 @@ def _word(kind: type[Word], name: str, cells: Mapping[str, str]) -> Word | None:
 
 
 def _number(name: str, cells: Mapping[str, str], most: float) -> float:
-    try:
-        value = float(cells[name].removesuffix("mm").removesuffix("N"))
-    except ValueError:
-        value = math.nan
+    value = _float(cells[name])
     if not 0 < value <= most:
         raise RowError(f"{name} must be a number above 0, up to {most:g}; got {cells[name]!r}")
     return value
+
+
+def _float(text: str) -> float:
+    """A number that its unit may follow; nan for any other text."""
+    try:
+        return float(text.removesuffix("mm").removesuffix("N"))
+    except ValueError:
+        return math.nan

@@ -84,6 +84,22 @@ def contract_in(episode: Episode, config: RunConfig) -> Contract:
     return episode.header.contract or contract_of(config)
 
 
+def lacks_first_step(episode: Episode) -> bool:
+    """Whether the step is missing that times are counted from."""
+    return bool(episode.steps) and episode.steps[0].index > 0
+
+
+def times_from_s(episode: Episode) -> float:
+    """Time that those of the steps are counted from, on the episode's clock [s].
+
+    That of the first step, or the start of the episode where that step is missing: it is earlier by
+    the approach and the closing of the gripper.
+    """
+    if not episode.steps or lacks_first_step(episode):
+        return episode.header.stamp.monotonic_s
+    return episode.steps[0].stamp.monotonic_s
+
+
 def asked_policy(step: StepRecord) -> bool:
     """Whether the policy decided a step; without contact the runtime does."""
     return step.phase is StepPhase.LOOP and step.decision not in (None, NO_CONTACT_DECISION)
@@ -105,7 +121,7 @@ def differences(episode: Episode, policy: Policy, contract: Contract) -> Iterato
             continue
         target = contract if step.need is None else replace(contract, force_n=step.need.force_n)
         try:
-            elapsed_s = step.stamp.monotonic_s - episode.steps[0].stamp.monotonic_s
+            elapsed_s = step.stamp.monotonic_s - times_from_s(episode)
             decision = decide(policy, _readings(step).for_policy(elapsed_s), target)
         except (TouchError, PolicyError) as error:
             yield Difference(index=step.index, text=str(error))

@@ -6,6 +6,7 @@ with the untouched gel; a client of another make may send what it likes.
 
 from __future__ import annotations
 
+from cltp.tactile.cloud import check_relief
 from cltp.tactile.contact.raised_pad import is_raised, raised_text
 from cltp.tactile.contact.single_cloud import is_lowered, is_touched, lowered_text
 from policies import Observation
@@ -18,12 +19,13 @@ def unread_reason(observation: Observation) -> str:
     its cloud may be anywhere below.
 
     Raises:
-        TouchError: The gel rises where a contact would press it in: z has the wrong sign.
+        TouchError: z has the wrong sign, or seems to be in metres.
     """
     cloud = observation.cloud
     if is_raised(cloud):
         return f"What is felt can't be read: {raised_text(cloud)}"
     if observation.in_contact is not False:
+        check_relief(cloud.points_mm[:, 2])
         is_touched(cloud)  # for its refusal
     if observation.in_contact is None and is_lowered(cloud):
         return f"What is felt can't be read: {lowered_text(cloud)}"

@@ -22,13 +22,14 @@ from cltp.checkpoints.tac3d_llm import load_clip, load_encoder
 from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset
 from cltp.data.sampler import CLEAN, NOISY, Batch
+from cltp.encoder.encoder import TactileEncoder
+from cltp.encoder.heads import StateHeads
 from cltp.errors import TouchError
 from cltp.evaluation.features import encode_batches, random_batches
 from cltp.evaluation.llm_scores import predict_by_captions
 from cltp.evaluation.probes import predict_with_heads
 from cltp.evaluation.scores import best_classes, score_classes
 from cltp.evaluation.zero_shot import ClassPrompts
-from cltp.tactile.point_layout import PointLayout
 from cltp.tactile.states import CLASSES
 from cltp.train.stage import ProgressReport, silent
 from cltp.train.text_targets import class_numbers
@@ -93,9 +94,10 @@ def evaluate_own(run: OwnEvaluation, report: ProgressReport = silent) -> list[Ow
     disable_progress_bar()  # of reading weights, over in milliseconds
     sets = {"own": _test_split(run.also), "ours": _test_split(run.data)}
     rows: list[OwnScores] = []
-    for title, weights in (("before", run.before), ("after", run.after)):
-        encoder, _ = load_encoder(_encoder_folder(weights))
-        layout = encoder.config.variant.layout
+    # Both are read before anything is measured.
+    readers = {"before": _load(run.before), "after": _load(run.after)}
+    for title, weights in readers.items():
+        layout = weights.encoder.config.variant.layout
         for name, data in sets.items():
             batches = random_batches(
                 data,
@@ -108,10 +110,38 @@ def evaluate_own(run: OwnEvaluation, report: ProgressReport = silent) -> list[Ow
             if not (labels >= 0).any():
                 raise UsageError(f"no contact of the test split of {data.folder} has a given label")
             report(f"{name}, {title}", 0, len(labels), {})
-            for reader, classes in read_classes(weights, batches, layout):
+            for reader, classes in read_classes(weights, batches):
                 rows.append(_row(name, title, reader, classes, labels))
             report(f"{name}, {title}", len(labels), len(labels), {})
     return rows
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LoadedWeights:
+    """What reads contacts by some weights.
+
+    Attributes:
+        encoder: The encoder.
+        heads: Its heads.
+        prompts: Prompts of the classes by the towers, for zero-shot.
+        speaker: The language model's captions; None without one.
+    """
+
+    encoder: TactileEncoder
+    heads: StateHeads
+    prompts: ClassPrompts
+    speaker: CaptionSpeaker | None
+
+
+def _load(weights: Path) -> LoadedWeights:
+    encoder, heads = load_encoder(_encoder_folder(weights))
+    encoder.eval(), heads.eval()
+    if not (weights / "clip").is_dir():
+        raise TouchError(f"{weights} has no clip; name a folder of weights or of tacgrasp train")
+    prompts = ClassPrompts(load_clip(weights / "clip"))
+    has_speaker = (weights / "lm").is_dir()
+    speaker = CaptionSpeaker(load_llm(weights).talker) if has_speaker else None
+    return LoadedWeights(encoder=encoder, heads=heads, prompts=prompts, speaker=speaker)
 
 
 def _encoder_folder(weights: Path) -> Path:
@@ -139,26 +169,13 @@ def given_classes(data: ContactDataset, batch: Batch) -> Tensor:
     return classes
 
 
-def read_classes(
-    weights: Path, batches: Sequence[Batch], layout: PointLayout
-) -> Iterator[tuple[str, Tensor]]:
-    """Each reader of some weights, and the classes (N, 5) that it reads in some contacts.
-
-    Raises:
-        TouchError: Weights can't be used, or their towers are missing.
-    """
-    folder = _encoder_folder(weights)
-    encoder, heads = load_encoder(folder)
-    encoder.eval(), heads.eval()
-    encoded = encode_batches(frozen(encoder), batches)
-    yield "heads", predict_with_heads(heads, encoded, batches).classes
-    if not (weights / "clip").is_dir():
-        raise TouchError(f"{weights} has no clip; name a folder of weights or of tacgrasp train")
-    prompts = ClassPrompts(load_clip(weights / "clip"))
-    yield "zero_shot", best_classes(prompts.cosines(encoded.feature))
-    if (weights / "lm").is_dir():
-        speaker = CaptionSpeaker(load_llm(weights).talker)
-        yield "captions", predict_by_captions(speaker, batches, read_numbers).classes
+def read_classes(weights: LoadedWeights, batches: Sequence[Batch]) -> Iterator[tuple[str, Tensor]]:
+    """Each reader of some weights, and the classes (N, 5) that it reads in some contacts."""
+    encoded = encode_batches(frozen(weights.encoder), batches)
+    yield "heads", predict_with_heads(weights.heads, encoded, batches).classes
+    yield "zero_shot", best_classes(weights.prompts.cosines(encoded.feature))
+    if weights.speaker is not None:
+        yield "captions", predict_by_captions(weights.speaker, batches, read_numbers).classes
 
 
 def _row(contacts: str, weights: str, reader: str, classes: Tensor, labels: Tensor) -> OwnScores:

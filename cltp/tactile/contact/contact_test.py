@@ -36,7 +36,7 @@ from cltp.tactile.contact.matched_filter import (
     MatchedFilter,
     filter_noise_mm,
 )
-from cltp.tactile.sensor_noise import spread_of
+from cltp.tactile.sensor_noise import drift_in, spread_of
 from cltp.tactile.sensors import SensorSpec
 
 SCALES_MM = (0.6, 1.0, 1.6)
@@ -336,15 +336,8 @@ def touches_alone(cloud: TactileCloud) -> ContactEvidence:
 
 
 def drift_alone_mm(cloud: TactileCloud) -> float:
-    """Drift that a single cloud may have, standard deviation [mm].
-
-    That of its sensor, or less where half of the pad lies within far less, as in a simulated cloud
-    without noise.
-    """
-    cells = filled(cell_means(cloud))
-    seen_mm = 1.4826 * float(np.median(np.abs(cells - np.median(cells))))
-    drift_mm = spread_of(cloud.sensor).drift_mm
-    return min(drift_mm, max(SEEN_FACTOR * seen_mm, LEAST_DRIFT * drift_mm))
+    """Drift that a single cloud may have, standard deviation [mm]; see ``drift_in``."""
+    return drift_in(filled(cell_means(cloud)), spread_of(cloud.sensor))
 
 
 def _evidence(responses: FloatArray, least_mm: FloatArray) -> ContactEvidence:
@@ -368,11 +361,6 @@ def _compared(pressed: float, raised: float) -> ContactEvidence:
 MIN_PRESSED = 0.5
 """Least response of what is pressed in over that of what rises, of a contact. A bump of the wrong
 sign has 0.1 to 0.3; noise-free contacts of all shapes have 0.62 (a plane) and more."""
-
-SEEN_FACTOR, LEAST_DRIFT = 8.0, 1 / 8
-"""Drift that a single cloud may have over the spread of its heights, and the least one over that of
-its sensor: 0.005 mm of a GelSight Mini. Our choice: a pad holds few independent places of drift, so
-that its spread is a poor estimate; that of a calibrated unit changes nothing."""
 
 SINGLE_THRESHOLD = 4.0
 """As ``THRESHOLD``, of a single frame: drift has few independent places on a pad."""

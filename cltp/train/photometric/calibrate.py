@@ -106,7 +106,7 @@ def train_gradients(
     if not 1.0 <= diameter_mm <= 100.0:
         raise TouchError(f"expected a ball of 1 to 100 mm, got {diameter_mm} mm")
     background = check_frame(background, sensor, "the background")
-    used, presses, rejected = _find_all(frames, background, sensor, diameter_mm)
+    used, presses, rejected = find_presses(frames, background, sensor, diameter_mm)
     changes = [colour_change(frames[i], background) for i in used]
     torch_rng, rng = torch.Generator().manual_seed(seed), np.random.default_rng(seed)
     total, done = consensus_steps(steps) + (0 if profiles is None else TURNS), 0
@@ -152,9 +152,17 @@ def _depths(press: BallPress, profiles: ProfileTable, sensor: SensorSpec) -> NDA
     return (height - np.median(height)).astype(np.float32)
 
 
-def _find_all(
+def find_presses(
     frames: Sequence[Frame], background: Frame, sensor: SensorSpec, diameter_mm: float
 ) -> tuple[list[int], list[BallPress], dict[int, str]]:
+    """The frames that show a ball, and why the others do not; arguments as ``train_gradients``.
+
+    Returns:
+        Index of each frame with a ball; its press; the reason by the index of each other frame.
+
+    Raises:
+        TouchError: A frame is no frame of this sensor, or fewer than ``MIN_PRESSES`` show a ball.
+    """
     used, presses, rejected = [], [], {}
     for index, frame in enumerate(frames):
         check_frame(frame, sensor, f"frame {index}")

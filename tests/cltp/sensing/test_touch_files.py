@@ -204,6 +204,10 @@ BAD_FILES: dict[str, tuple[bytes, str]] = {
     "photo.jpg": (b"\xff\xd8", "not an image"),
     "few.xyz": (xyz(points()[:10]), "at least 64"),
     "metres.xyz": (xyz(points() / 1000), "in metres"),
+    "depths in metres.xyz": (
+        "\n".join(f"{x:.3f} {y:.3f} {z / 1000:.7f}" for x, y, z in points()).encode(),
+        "is it in metres",
+    ),
     "nan.xyz": (xyz(np.where(points() > 0.49, np.nan, points())), "NaN"),
     "elsewhere.xyz": (xyz(points() + np.array([30, 0, 0])), "beyond the sensing area"),
 }

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from cltp.errors import TouchError
-from cltp.tactile.cloud import TactileCloud, cloud_from_heights
+from cltp.tactile.cloud import TactileCloud, check_relief, cloud_from_heights
 from cltp.tactile.sensors import sensor_named
 
 SENSOR = sensor_named("gelsight_mini")
@@ -29,3 +29,19 @@ BALL = cloud_from_heights(np.clip(0.45 - (X**2 + Y**2) / 30, 0, None), SENSOR).p
 def test_what_is_no_cloud_says_why(points: np.ndarray, expected: str) -> None:
     with pytest.raises(TouchError, match=expected):
         TactileCloud(points_mm=points, sensor=SENSOR)
+
+
+@pytest.mark.parametrize("deepest_mm", [0.02, 0.45, 1.9])
+def test_depths_in_metres_beside_places_in_mm_are_refused(deepest_mm: float) -> None:
+    heights_mm = BALL[:, 2] * deepest_mm / BALL[:, 2].max()
+    check_relief(heights_mm)
+    with pytest.raises(TouchError, match=r"the cloud's whole relief is .* is it in metres"):
+        check_relief(heights_mm / 1000)
+
+
+@pytest.mark.parametrize("noise_mm", [0.0, 1e-7, 0.001, 0.01, 0.03])
+@pytest.mark.parametrize("num_points", [64, 1024])
+def test_an_untouched_gel_is_never_taken_for_metres(noise_mm: float, num_points: int) -> None:
+    for seed in range(20):
+        noise = np.random.default_rng(seed).standard_normal(num_points)
+        check_relief((0.05 + noise_mm * noise).astype(np.float32))

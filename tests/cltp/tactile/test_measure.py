@@ -107,3 +107,17 @@ def test_a_contact_that_was_tested_is_measured_though_drift_has_lowered_the_pad(
     assert lowered.depth_mm == pytest.approx(clean.depth_mm, abs=0.004)
     assert lowered.force_n == pytest.approx(clean.force_n, rel=0.1)
     assert (lowered.x_mm, lowered.y_mm) == pytest.approx((clean.x_mm, clean.y_mm), abs=0.2)
+
+
+def test_drift_as_high_as_the_foot_of_a_light_contact_beside_it_is_no_part_of_the_contact():
+    light = bump(-1.0, -1.0, 0.27, 1.4)
+    drift = 0.13 * np.exp(-((X - 4) ** 2 / 30 + (Y[:, None] - 3) ** 2 / 16))
+    assert drift[np.abs(Y + 1).argmin(), np.abs(X + 1).argmin()] > 0.2 * 0.1  # they adjoin
+    clean, drifted = (
+        contact_state(cloud_of_pixels(heights, SENSOR), in_contact=True)
+        for heights in (light, light + drift)
+    )
+    assert drifted.area is clean.area is Area.TINY
+    assert drifted.area_fraction == pytest.approx(clean.area_fraction, rel=0.25)
+    assert drifted.force_n == pytest.approx(clean.force_n, rel=0.3)
+    assert (drifted.x_mm, drifted.y_mm) == pytest.approx((-1.0, -1.0), abs=0.2)

@@ -10,6 +10,7 @@ from sim.emulators.dynamixel.bus_process import DynamixelEmulator
 from sim.emulators.dynamixel.fingers import SpringLoad
 from tacgrasp.__main__ import main
 from tacgrasp.drivers.dynamixel.calibration import load_calibration
+from tacgrasp.drivers.dynamixel.fingers import connect_fingers
 from tests.fakes.emulated_servos import emulated_gripper
 
 RIG = {
@@ -74,6 +75,26 @@ def test_a_person_types_what_the_scale_shows(rig, monkeypatch, capsys):
         assert made.newtons_per_ma == pytest.approx(1.0 / 180)
         assert emulator.facts()["squeezes"] == 3
         assert emulator.facts()["width_m"] == pytest.approx(0.11, abs=1e-3)
+    finally:
+        emulator.close()
+
+
+def test_a_gripper_that_still_grips_is_refused_and_squeezes_nothing(rig, tmp_path, capsys):
+    pytest.importorskip("dynamixel_sdk")
+    emulator = DynamixelEmulator(SpringLoad(width_m=0.08))
+    try:
+        path = rig(emulator.serial_port)
+        fingers = connect_fingers(emulated_gripper(emulator.serial_port, tmp_path))
+        (tmp_path / "gripper_calibration.yaml").unlink()
+        fingers.squeeze(100)
+        fingers.disconnect()
+        before = emulator.facts()
+        assert main(["calibrate", "gripper", "--rig", str(path)]) == 3
+        error = capsys.readouterr().err
+        assert "the gripper is not open: it still grips, with 100 mA" in error
+        assert "tacgrasp jog (key o; --open needs the gripper alone); nothing moved" in error
+        after = emulator.facts()
+        assert (after["squeezes"], after["width_m"]) == (before["squeezes"], before["width_m"])
     finally:
         emulator.close()
 

@@ -212,7 +212,10 @@ def test_sheets_hold_every_drawn_contact(untouched, tmp_path, capsys):
 
 @pytest.mark.parametrize(
     ("wrong", "said"),
-    [(["--contacts", "0"], "at least 1 contact"), (["--seed=-1"], "--seed must be at least 0")],
+    [
+        (["--contacts", "0"], "--contacts must be at least 1, got 0"),
+        (["--seed=-1"], "--seed must be at least 0"),
+    ],
 )
 def test_impossible_draws_are_refused(wrong, said, untouched, tmp_path, capsys):
     for command in ("gallery", "sheet"):

@@ -24,6 +24,7 @@ def touches(tmp_path):
     np.save(folder / "map.npy", bump)
     np.savez(folder / "cloud.npz", points_mm=cloud_from_heights(bump, MINI).points_mm)
     np.save(folder / "turned.npy", -bump)
+    np.save(folder / "low.npy", 0.2 * np.exp(-((X - 2) ** 2 + (Y + 4) ** 2) / 2))
     np.save(folder / "none.npy", np.full(X.shape, 0.01))
     return folder
 
@@ -63,8 +64,9 @@ def test_given_labels_are_kept_and_what_is_empty_is_measured_and_marked(touches,
     assert not none.state.in_contact
     said = capsys.readouterr().out
     assert "3 contacts" in said
-    assert "shape     1 given, 0 measured, 2 unknown" in said
-    assert "depth     1 given, 2 measured, 0 unknown" in said
+    assert "untouched 1 with no contact" in said
+    assert "shape     1 given, 0 measured, 1 unknown" in said
+    assert "depth     1 given, 1 measured, 0 unknown" in said
     assert main(["data", "verify", str(out)]) == 0
 
 
@@ -85,7 +87,12 @@ def test_a_depth_may_be_a_number_of_mm(depth, touches):
         ("map.npy,blob,,,,,,,,", "shape 'blob' is not one of sphere, "),
         ("map.npy,,,,left,,,,,", "position 'left' is not one of top-left, "),
         ("map.npy,,,0,,,,,,", "depth must be a number above 0, up to 10; got '0'"),
-        ("map.npy,,,30,,,,,,", "depth must be a number above 0, up to 10; got '30'"),
+        ("map.npy,,,30,,,,,,", "depth 30 mm, but the heights reach 0.5 mm"),
+        ("map.npy,,,0.0005,,,,,,", "the heights reach 0.5 mm; is it in metres? Multiply by 1000"),
+        ("map.npy,,,450,,,,,,", "the heights reach 0.5 mm; is it in µm? Divide by 1000"),
+        ("map.npy,,,0.05,,,,,,", "depth 0.05 mm, but the heights reach 0.5 mm"),
+        ("low.npy,,,very deep,,,,,,", "very deep (0.9 mm and more), but the heights reach 0.2 mm"),
+        ("low.npy,,,,,very large,,,,", "area very large (30 % and more), but 2."),
         ("map.npy,,,-0.3,,,,,,", "depth must be a number above 0, up to 10; got '-0.3'"),
         ("map.npy,,,nan,,,,,,", "depth must be a number above 0, up to 10; got 'nan'"),
         ("map.npy,,,flat,,,,,,", "depth 'flat' is not one of "),
@@ -113,6 +120,13 @@ def test_bad_rows_are_named_by_line_and_file_and_nothing_is_written(row, message
     assert f"labels.csv line 3 ({name}): " in said
     assert message in said
     assert sorted(path.name for path in out.parent.iterdir()) == ["touches"]
+
+
+@pytest.mark.parametrize(
+    "labels", ["0.2,large", "1.5,tiny", "slight,medium", "deep,small", "very deep,medium"]
+)
+def test_what_a_person_may_have_estimated_is_no_bad_row(labels, touches):
+    assert imported(touches, f"file,depth,area\nmap.npy,{labels}\n")[0] == 0
 
 
 def test_all_bad_rows_are_told_at_once(touches, capsys):

@@ -159,7 +159,9 @@ def test_a_file_that_can_t_be_written_leaves_nothing_behind(tmp_path, capsys):
     folder = tmp_path / "a.npz"
     folder.mkdir()
     assert main([*BALL, "--grid", "80x60", "--out", str(folder)]) == 2
-    assert "can't be written" in capsys.readouterr().err
+    printed = capsys.readouterr()
+    assert "can't be written" in printed.err
+    assert printed.out == ""  # it is told before the press is computed
     assert [path.name for path in tmp_path.iterdir()] == ["a.npz"]
 
 

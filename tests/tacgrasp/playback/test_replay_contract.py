@@ -9,11 +9,12 @@ import pytest
 
 from primitives.contract import Contract, default_limit_n
 from sim.grasp.rig import SimRig, build
+from tacgrasp.__main__ import main
 from tacgrasp.config.layers import load
 from tacgrasp.config.schema import RunConfig
 from tacgrasp.config.terms import contract_of
 from tacgrasp.episodes import Episode, read_episode
-from tacgrasp.playback.replay import contract_in, repeat
+from tacgrasp.playback.replay import contract_in, repeat, times_from_s
 from tacgrasp.policy_factory import make_policy
 from tacgrasp.run import run_recorded
 from tests.fakes.contracts import STRAWBERRY, contract
@@ -67,3 +68,18 @@ def test_an_episode_with_another_contract_than_the_task_keeps_its_own(tmp_path: 
     rig = rig_for(settings)
     list(repeat(episode, rig, settings))
     assert rig.truth().peak_force_n <= light.limit_n
+
+
+def test_times_count_from_the_start_where_the_first_step_is_lost(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    whole, _ = recorded("strawberry", tmp_path)
+    start_s = whole.header.stamp.monotonic_s
+    assert times_from_s(whole) == whole.steps[0].stamp.monotonic_s > start_s
+    damaged = replace(whole, steps=whole.steps[1:])
+    assert times_from_s(damaged) == start_s
+    monkeypatch.setattr("tacgrasp.episodes.read_episode", lambda _: damaged)
+    assert main(["replay", "damaged.mcap"]) == 0
+    printed = capsys.readouterr().out
+    assert "its first step is missing" in printed
+    assert f"{whole.steps[1].stamp.monotonic_s - start_s:6.1f} s  " in printed

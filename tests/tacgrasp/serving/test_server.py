@@ -153,6 +153,7 @@ def test_a_second_answer_says_how_long_the_first_took_in_all(url):
         ({POINTS: BELOW * np.float32("nan")}, "must be finite"),
         ({POINTS: BELOW.astype("<f8") * 1e300}, "must be finite"),
         ({POINTS: BELOW / 1000}, "is it in metres"),
+        ({POINTS: BELOW * np.float32([1, 1, 1e-3])}, "is it in metres"),
         ({POINTS: BELOW[:5]}, "at least 64"),
         ({"sensor": "finger"}, "unknown sensor 'finger'"),
         ({"observation/in_contact": 1}, "must be true or false"),

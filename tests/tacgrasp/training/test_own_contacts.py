@@ -107,6 +107,30 @@ def test_only_given_labels_of_ones_own_are_scored(
         assert before["right"] == after["right"]  # the same weights
 
 
+def test_weights_and_folders_are_checked_before_anything_is_measured(
+    ours: Path, own: Path, weights: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    argv = ["eval", "own", "--data", str(ours), "--before", str(weights), "--weights"]
+    assert main([*argv, str(tmp_path / "gone"), "--also", str(own)]) == 2
+    printed = capsys.readouterr()
+    assert "gone/encoder" in printed.err
+    assert "before" not in printed.out + printed.err
+    assert main([*argv, str(weights), "--also", str(ours.parent / "." / ours.name)]) == 2
+    assert "is the folder of --data too" in capsys.readouterr().err
+
+
+def test_training_on_from_no_weights_writes_nothing(
+    ours: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = tmp_path / "out"
+    argv = ["train", "cltp", "--data", str(ours), "--start", str(tmp_path / "gone"), "--out"]
+    assert main([*argv, str(out)]) == 2
+    printed = capsys.readouterr()
+    assert "gone/encoder" in printed.err
+    assert "writing" not in printed.out
+    assert not out.exists()
+
+
 def test_sets_that_can_not_be_measured_on_are_refused(
     ours: Path, weights: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

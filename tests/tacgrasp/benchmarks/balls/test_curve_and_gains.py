@@ -80,6 +80,19 @@ def test_presses_are_spread_and_the_others_kept_apart(folder):
         spread_presses(balls, SENSOR, 6.0, 12)
 
 
+@pytest.mark.parametrize("choice", [[], ["--presses", "0"], ["--presses", "3"]])
+def test_frames_without_a_ball_are_told_alike_with_and_without_a_choice(
+    choice, folder, tmp_path, capsys
+):
+    empty = tmp_path / "empty"
+    empty.mkdir()
+    for name in ("background", *(f"{number:02d}" for number in range(6))):
+        (empty / f"{name}.png").write_bytes((folder / "background.png").read_bytes())
+    argv = ["calibrate", "gelsight-mini", "--balls", str(empty), "--diameter-mm", "6", *choice]
+    assert main([*argv, "--out", str(tmp_path / "c.safetensors")]) == 2
+    assert "a ball was found in 0 of 6 frames, expected at least 5" in capsys.readouterr().err
+
+
 @pytest.fixture(scope="module")
 def other_units(folder, tmp_path_factory):
     """A calibration of these presses that reads x a quarter too steep."""
