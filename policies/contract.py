@@ -176,6 +176,10 @@ def _take_words(draft: _Draft, request: Request, task: TaskTerms, *, is_own: boo
         )
         if (most_n := most_of(numbers.forces)) < math.inf:
             draft.named_most_n = ROUNDING * most_n
+            if draft.force.limit_n < draft.named_most_n and draft.force == task.force:
+                draft.origins["force_n"] = draft.origins["limit_n"] = TASK
+                limit = f"the task's limit of {task.force.limit_n:.3g} N"
+                draft.assumed.append(f"{draft.words!r} is above {limit}, which stays")
         _note_tolerances(draft, numbers.forces, numbers.rest)
     elif numbers.delta_n is not None:
         draft.words = f"{numbers.delta_n:+.3g} N"

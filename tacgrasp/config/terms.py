@@ -95,10 +95,11 @@ def contract_lines(contract: Contract) -> list[str]:
     if contract.refused:
         return [f"refused: {contract.refused}", f"understood: {contract.summary}"]
     band, limit_n = contract.terms.force_n, contract.terms.limit_n
-    origin = contract.origins.get("force_n", "the task")
+    of_band, of_limit = (contract.origins.get(name, "the task") for name in ("force_n", "limit_n"))
+    own = "" if of_band == of_limit else f" ({of_band})"
     line = (
-        f"understood: {contract.summary}, {band.low:.2f}-{band.high:.2f} N, never above "
-        f"{limit_n:.3g} N ({origin}); place x {_span(contract.x_mm)}, y {_span(contract.y_mm)} mm"
+        f"understood: {contract.summary}, {band.low:.2f}-{band.high:.2f} N{own}, never above "
+        f"{limit_n:.3g} N ({of_limit}); place x {_span(contract.x_mm)}, y {_span(contract.y_mm)} mm"
     )
     return [line, *(f"  {note}" for note in contract.assumed)]
 

@@ -325,3 +325,10 @@ def test_force_terms_of_nothing_are_refused():
 )
 def test_units_are_said_as_they_are_written(instruction, words):
     assert words in read(instruction).origins["force_n"]
+
+
+def test_a_most_above_the_task_s_limit_changes_nothing_and_is_no_origin():
+    said = read("at most 500 N")
+    assert said.terms == STRAWBERRY
+    assert said.origins["limit_n"] == said.origins["force_n"] == "the task"
+    assert any("'at most 500 N' is above the task's limit" in note for note in said.assumed)

@@ -327,3 +327,9 @@ def test_the_kind_of_a_wrong_answer_can_be_right():
 )
 def test_a_count_needs_no_unit_and_every_unit_counts(truth, text, is_right):
     assert right(text, "number", truth) is is_right
+
+
+def test_a_truth_that_names_nothing_is_a_number_like_any_other():
+    assert scale_of(Expression("20 * 2")) == 1.0
+    assert right("40 g.", "number", "20 * 2")
+    assert not right("41.5 g.", "number", "20 * 2")
