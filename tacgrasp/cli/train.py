@@ -280,7 +280,7 @@ class TrainSlipFlags:
     """
 
     out: Path
-    seeds: int = 5000
+    seeds: int = 5900
     units: int = 2
     loads: Path = Path("data/slip_loads")
     seed: int = 0

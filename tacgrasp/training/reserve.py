@@ -93,7 +93,7 @@ class ReserveErrors:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class SeenGrips:
-    """Cues (N, NUM_VALUES) of one sensor, reserves (N,), numbers of the bodies (N,)."""
+    """Cues (N, NUM_OF_RESERVE) of one sensor, reserves (N,), numbers of the bodies (N,)."""
 
     cues: FloatArray
     reserve: FloatArray

@@ -24,7 +24,12 @@ from cltp.errors import TouchError
 from cltp.tactile.cloud import FloatArray
 from cltp.tactile.sensors import SensorSpec, sensor_named
 from cltp.tactile.shear.contact_shape import grid_of
-from cltp.tactile.shear.contact_shear import MIRRORED, NUM_VALUES, ShearWatch
+from cltp.tactile.shear.contact_shear import (
+    MIRROR_ORDER,
+    MIRROR_SIGNS,
+    NUM_VALUES,
+    ShearWatch,
+)
 from cltp.tactile.shear.field import ShearField
 from cltp.tactile.shear.noise import ShearUnit
 from cltp.tactile.shear.slip import SlipJudge, SlipModel, noise_of, write_model
@@ -57,9 +62,10 @@ hold with less than ``NEARLY_SLID`` of the contact. Our choice."""
 
 NEARLY_SLID = 0.5
 
-PRECISION = 0.995
-"""Fraction of the calls on held-out loads that shall be slips; sets the threshold. Our choice: set
-on one half of the held-out loads, thresholds for 99 and 99.5 % had 98.9 and 99.3 % on the other."""
+PRECISION = 0.993
+"""Fraction of the calls on held-out loads that shall be slips; sets the threshold. Our choice: the
+last half percent costs the most. Of 1,512 slips of taxels that were held out, 93.8, 91.4 and 86.2 %
+are called within 30 ms at 99, 99.3 and 99.5 %, and the latest hundredth after 72, 90 and 110 ms."""
 
 SLIP_MM = 0.1
 """Slide from which a load counts as one that slips, as in ``tacgrasp bench reflex`` [mm]."""
@@ -237,7 +243,8 @@ def fit(loads: Sequence[SeenLoad], seed: int) -> SlipModel:
     frame_hz = sensor_named(loads[0].sensor).frame_hz
     cues = np.concatenate([each.cues for each in kept])
     mean, spread = cues.mean(axis=0), cues.std(axis=0) + 1e-6
-    mean[list(MIRRORED)] = 0.0
+    mean = (mean + mean[MIRROR_ORDER] * MIRROR_SIGNS) / 2
+    spread = np.maximum(spread, spread[MIRROR_ORDER])
     lessons = [each.lesson(mean, spread) for each in kept]
     layers = learn(lessons, seed)
     model = SlipModel(mean=mean, spread=spread, **layers, frame_hz=frame_hz, threshold=0.0)

@@ -23,6 +23,10 @@ RINGS = (0.0, 0.6, 1.1, 1.6, 2.2, 3.2)
 SMALL = 1e-6
 """Least divisor."""
 
+SPOT_PITCHES, LEAST_AXIS_MM2 = 0.6, 0.3
+"""Width of a spot in pitches of the points, and the least squared half axis of the ellipse that
+spots are spread over [mm²]. Our choice."""
+
 BODY_LEVEL = 0.3
 """Fraction of the depth above which the volume counts. Our choice: above the rim and the noise."""
 
@@ -145,6 +149,26 @@ class ContactShape:
     def twofold(self, to: FloatArray) -> FloatArray:
         """Cosine of twice the angle to a direction, shape (N,)."""
         return np.cos(2 * (self.angle - math.atan2(to[1], to[0])))
+
+    def weights_at(self, spots: FloatArray, to: FloatArray) -> FloatArray:
+        """Weights (S, N) of the points about some spots of the contact, 0 for one beside the pad.
+
+        Args:
+            spots: Shape (S, 2), along and across a direction, in the ellipse of the contact.
+            to: Shape (2,), the direction.
+        """
+        grid, half_trace = self.grid, self.radius_mm**2 / 4
+        xx, yy, xy = 1 + self.axes[0], 1 - self.axes[0], self.axes[1]
+        sizes, ways = np.linalg.eigh(2 * half_trace * np.array([[xx, xy], [xy, yy]]))
+        root = (ways * np.sqrt(np.maximum(sizes, LEAST_AXIS_MM2))) @ ways.T
+        turned = np.array([[to[0], to[1]], [-to[1], to[0]]])
+        at = spots @ turned @ root.T + np.array(self.centre)
+        off_x = (at[:, :1] - grid.x) / grid.pitch_x
+        off_y = (at[:, 1:] - grid.y) / grid.pitch_y
+        weights = np.exp(-(off_x**2 + off_y**2) / (2 * SPOT_PITCHES**2))
+        weights /= np.maximum(weights.sum(axis=1, keepdims=True), SMALL)
+        is_on_pad = (np.abs(at) <= np.array(grid.half)).all(axis=1)
+        return np.asarray(weights * is_on_pad[:, None])
 
     def numbers(self, to: FloatArray) -> list[float]:
         """Size, elongation along a direction, nearness of the pad's edge, fall-off of heights."""

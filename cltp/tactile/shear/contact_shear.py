@@ -17,6 +17,7 @@ from collections import deque
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from cltp.tactile.cloud import FloatArray
 from cltp.tactile.sensors import SensorSpec
@@ -54,12 +55,21 @@ class ShearCues:
         depth_mm: Largest mean indentation [mm].
         volume_mm3: Mean indentation times area [mm³], which grows with the normal force.
         values: Shape (NUM_VALUES,): the cues of slip, of order 1.
+        profile: Shape (NUM_PROFILE,): the displacement by ring and harmonic, of order 1, which the
+            reserve is read from beside the first cues (``of_reserve``).
     """
 
     along_mm: tuple[float, float]
     depth_mm: float
     volume_mm3: float
     values: FloatArray
+    profile: FloatArray
+
+    @property
+    def of_reserve(self) -> FloatArray:
+        """Cues of the reserve, shape (NUM_OF_RESERVE,)."""
+        first, others = np.split(self.values[: NUM_VALUES - 3 * len(SPOTS)], [_NUM_CHANGES])
+        return np.concatenate([first, self.profile, others])
 
 
 class ShearWatch:
@@ -125,16 +135,17 @@ class ShearWatch:
             size / max(shape.depth_mm, SMALL) / 3,
             noise / scale,
             *(each / scale for each in _changes(middles, rest, to)),
-            *(each / scale for each in _profile(shape, moved[-2:, :, :2], found[-2:], to)),
             *shape.numbers(to),
             math.log(max(shape.depth_mm, 1e-3) / 0.1),
             *self._moves(shape, to),
+            *_samples(shape, moved[-2:, :, :2], found[-2:], to, scale),
         ]
         return ShearCues(
             along_mm=(float(now[0]), float(now[1])),
             depth_mm=shape.depth_mm,
             volume_mm3=shape.volume_mm3,
             values=np.array(values),
+            profile=_profile(shape, moved[-2:, :, :2], found[-2:], to) / scale,
         )
 
     def _moves(self, shape: ContactShape, to: FloatArray) -> list[float]:
@@ -185,7 +196,7 @@ def _changes(middles: _Middles, rest: FloatArray, to: FloatArray) -> list[float]
 
 def _profile(
     shape: ContactShape, moved: FloatArray, found: FloatArray, to: FloatArray
-) -> list[float]:
+) -> FloatArray:
     """Displacement of some frames (F, N, 2) by ring and harmonic, weighed by height [mm]."""
     seen = found.sum(axis=0)
     mean = (found[:, :, None] * moved).sum(axis=0) / np.maximum(seen, SMALL)[:, None]
@@ -205,11 +216,65 @@ def _profile(
     powers = np.stack([inside * level**power for power in (*POWERS, 1.0)])
     ratios = (powers @ profile) / np.maximum(powers @ level, SMALL)
     bends = ratios[:-1] - ratios[-1]
-    return [*means[1:], *quadrupole, ratios[-1], *bends, *harmonics.ravel()]
+    return np.array([*means[1:], *quadrupole, ratios[-1], *bends, *harmonics.ravel()])
 
 
-MIRRORED = (6, 9, 23, 24, 27, 28, 42, 45)
-"""Cues that change their sign in a mirror along the drag."""
+def _samples(
+    shape: ContactShape, moved: FloatArray, found: FloatArray, to: FloatArray, scale: float
+) -> FloatArray:
+    """Displacement of some frames (F, N, 2) over a scale, and heights over the depth, at ``SPOTS``.
 
-NUM_VALUES = 3 + 7 + (4 + 3 + 1 + len(POWERS) + 8) + (4 + 4) + 1 + (2 + 3 + 3 + 3)
-"""Number of cues."""
+    Returns:
+        Shape (3 len(SPOTS),): displacement along the drag, across it, height.
+    """
+    weights = shape.weights_at(SPOTS, to)
+    seen = found.sum(axis=0)
+    mean = (found[:, :, None] * moved).sum(axis=0) / np.maximum(seen, SMALL)[:, None]
+    known = weights * (seen > 0)
+    known /= np.maximum(known.sum(axis=1, keepdims=True), SMALL)
+    is_on_pad = weights.any(axis=1)
+    turned = mean @ np.array([[to[0], -to[1]], [to[1], to[0]]])
+    along, across = (known @ turned).T * is_on_pad / scale
+    return np.concatenate([along, across, weights @ shape.height_mm / shape.depth_mm])
+
+
+_RADII, _ANGLES = (0.5, 1.0, 1.5, 2.2), 8
+SPOTS = np.array(
+    [(0.0, 0.0)]
+    + [
+        (radius * math.cos(math.tau * k / _ANGLES), radius * math.sin(math.tau * k / _ANGLES))
+        for radius in _RADII
+        for k in range(_ANGLES)
+    ]
+)
+"""Where the field about a contact is looked at: along and across the drag, in the contact's own
+ellipse, whose edge a sphere's contact has at 1.2. Our choice: from inside it to the free gel."""
+
+_MIRRORED = (6, 9, 22, 25)
+"""Cues that change their sign in a mirror along the drag, beside the displacement across it."""
+
+_NUM_CHANGES = 3 + 7
+NUM_VALUES = _NUM_CHANGES + (4 + 4) + 1 + (2 + 3 + 3 + 3) + 3 * len(SPOTS)
+"""Number of cues of slip."""
+
+NUM_PROFILE = 4 + 3 + 1 + len(POWERS) + 8
+NUM_OF_RESERVE = NUM_VALUES - 3 * len(SPOTS) + NUM_PROFILE
+"""Numbers of the profile, and of the cues of the reserve."""
+
+
+def _mirror() -> tuple[NDArray[np.intp], FloatArray]:
+    order, signs = np.arange(NUM_VALUES), np.ones(NUM_VALUES)
+    signs[list(_MIRRORED)] = -1.0
+    count = len(SPOTS)
+    twins = [0] + [
+        1 + ring * _ANGLES + -k % _ANGLES for ring in range(len(_RADII)) for k in range(_ANGLES)
+    ]
+    first = NUM_VALUES - 3 * count
+    for part in range(3):
+        order[first + part * count :][:count] = first + part * count + np.array(twins)
+    signs[first + count :][:count] = -1.0
+    return order, signs
+
+
+MIRROR_ORDER, MIRROR_SIGNS = _mirror()
+"""A mirror along the drag makes cues ``cues[..., MIRROR_ORDER] * MIRROR_SIGNS``."""

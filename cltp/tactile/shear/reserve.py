@@ -23,7 +23,7 @@ from cltp.errors import TouchError
 from cltp.tactile.cloud import FloatArray
 from cltp.tactile.sensors import SensorSpec
 from cltp.tactile.shear.contact_shape import ContactShape, grid_of
-from cltp.tactile.shear.contact_shear import NUM_VALUES, ShearWatch
+from cltp.tactile.shear.contact_shear import NUM_OF_RESERVE, ShearWatch
 from cltp.tactile.shear.field import ShearField
 from cltp.tactile.shear.slip import MODELS, Layer
 
@@ -58,7 +58,7 @@ class ReserveModel:
     """Weights of the network.
 
     Attributes:
-        mean, spread: Shape (NUM_VALUES,): of the cues in training.
+        mean, spread: Shape (NUM_OF_RESERVE,): of the cues in training.
         layers: Weights (outputs, inputs) and biases (outputs,) of each layer.
     """
 
@@ -77,7 +77,7 @@ class ReserveModel:
         return None if cues is None else self.of_cues(cues)
 
     def of_cues(self, cues: FloatArray) -> Reserve:
-        """The reserve of cues (NUM_VALUES,) of a mean field."""
+        """The reserve of cues (NUM_OF_RESERVE,) of a mean field."""
         hidden = (cues - self.mean) / self.spread
         for weights, biases in self.layers[:-1]:
             hidden = np.tanh(weights @ hidden + biases)
@@ -126,13 +126,13 @@ def place_mm(mean: MeanField) -> tuple[float, float] | None:
 
 
 def mean_cues(mean: MeanField, noise_mm: tuple[float, float]) -> FloatArray | None:
-    """Cues (NUM_VALUES,) of a mean field; None where it shows no contact.
+    """Cues (NUM_OF_RESERVE,) of a mean field; None where it shows no contact.
 
     Arguments are those of ``ReserveModel.read``.
     """
     along_mm, depth_mm = (each / mean.frames**0.5 for each in noise_mm)
     cues = ShearWatch(mean.field.sensor, along_mm, depth_mm).see(mean.field)
-    return None if cues is None else cues.values
+    return None if cues is None else cues.of_reserve
 
 
 @lru_cache
@@ -151,7 +151,7 @@ def reserve_model(sensor_name: str) -> ReserveModel:
         model = ReserveModel(mean=arrays["mean"], spread=arrays["spread"], layers=layers)
     except (OSError, EOFError, BadZipFile, ValueError, KeyError) as error:
         raise TouchError(f"no model of the reserve of {sensor_name!r} in {path}: {error}") from None
-    if model.mean.shape != (NUM_VALUES,) or len(layers[-1][1]) != len(QUANTILES):
+    if model.mean.shape != (NUM_OF_RESERVE,) or len(layers[-1][1]) != len(QUANTILES):
         raise TouchError(f"{path} is of another version: train anew (`tacgrasp train slip --help`)")
     return model
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from cltp.errors import TouchError
-from cltp.tactile.shear.contact_shear import NUM_VALUES
+from cltp.tactile.shear.contact_shear import NUM_OF_RESERVE
 from cltp.tactile.shear.reserve import QUANTILES
 from tacgrasp.training.reserve import FIRST_SEED, MOST, STANDS, SeenGrips, fit, write_grips
 from tacgrasp.training.slip_loads import SENSORS
@@ -13,7 +13,7 @@ from tacgrasp.training.slip_loads import SENSORS
 def lessons(count=2000, noise=0.2):
     """A reserve that two cues tell, with known errors."""
     rng = np.random.default_rng(0)
-    cues = rng.standard_normal((count, NUM_VALUES))
+    cues = rng.standard_normal((count, NUM_OF_RESERVE))
     reserve = 0.5 * cues[:, 0] - 0.3 * cues[:, 1] + noise * rng.standard_normal(count)
     return SeenGrips(cues=cues, reserve=reserve, body=np.arange(count) % 50)
 

@@ -7,7 +7,14 @@ import torch
 from cltp.errors import TouchError
 from cltp.tactile.cloud import grid_axes_mm
 from cltp.tactile.sensors import sensor_named
-from cltp.tactile.shear.contact_shear import LAG, MIRRORED, NUM_VALUES, ShearWatch
+from cltp.tactile.shear.contact_shear import (
+    LAG,
+    MIRROR_ORDER,
+    MIRROR_SIGNS,
+    NUM_VALUES,
+    SPOTS,
+    ShearWatch,
+)
 from cltp.tactile.shear.field import ShearField
 from cltp.tactile.shear.slip import (
     LARGEST_CUE,
@@ -20,9 +27,10 @@ from cltp.tactile.shear.slip import (
 )
 
 SENSORS = ("taxels", "gelsight_mini_markers")
-SHIFT_CUE = -3
+FIRST_SPOT = NUM_VALUES - 3 * len(SPOTS)
+SHIFT_CUE = FIRST_SPOT - 3
 """Place of the shift of the indentation among the cues [mm]."""
-SHIFT_SINCE_REST_CUE = -11
+SHIFT_SINCE_REST_CUE = FIRST_SPOT - 11
 """Place of that since the hold began [mm]."""
 
 
@@ -114,7 +122,7 @@ def mirrored(field):
     )
 
 
-def test_a_mirror_changes_the_sign_of_the_mirrored_cues_alone():
+def test_a_mirror_changes_cues_as_it_is_said_to():
     sensor, rng = sensor_named("taxels"), np.random.default_rng(0)
     noise = 0.004 * rng.standard_normal((4, 144, 3))
     fields = [
@@ -123,10 +131,30 @@ def test_a_mirror_changes_the_sign_of_the_mirrored_cues_alone():
     ]
     before = watch_of(sensor, fields).values
     after = watch_of(sensor, [mirrored(each) for each in fields]).values
-    sign = np.ones(NUM_VALUES)
-    sign[list(MIRRORED)] = -1
-    np.testing.assert_allclose(after, sign * before, atol=1e-4)
-    assert np.abs(before[list(MIRRORED)]).max() > 0.01
+    np.testing.assert_allclose(after, before[MIRROR_ORDER] * MIRROR_SIGNS, atol=1e-4)
+    assert np.abs(before[MIRROR_SIGNS < 0]).max() > 0.01
+    assert np.abs(after - before).max() > 0.01
+
+
+@pytest.mark.parametrize("angle", [0.0, 0.7, 2.0, -2.5])
+def test_spots_show_the_drag_where_it_is_whatever_its_direction(angle):
+    sensor = sensor_named("taxels")
+    to = np.array([np.cos(angle), np.sin(angle)])
+    values = watch_of(sensor, [field_of(sensor, along_mm=0.1 * to)] * 4).values[FIRST_SPOT:]
+    along, across, height = values.reshape(3, len(SPOTS))
+    assert along[0] == pytest.approx(1.0, abs=0.15)  # in the middle as there
+    assert np.abs(across).max() < 0.02
+    assert along[0] > along[9] > along[-1] > 0  # less outwards, as the round contact has it
+    assert height[0] > height[9] > height[-1]
+
+
+def test_spots_beside_the_pad_are_nought():
+    sensor = sensor_named("taxels")
+    edge_mm = (sensor.width_mm / 2 - 0.5, 0.0)
+    fields = [field_of(sensor, at_mm=edge_mm, along_mm=(0.1, 0.0))] * 4
+    values = watch_of(sensor, fields).values[FIRST_SPOT:].reshape(3, len(SPOTS))
+    assert (values[:, -8] == 0).all()  # ahead of the contact, where no gel is
+    assert (values[:, 0] != 0).any()
 
 
 def test_a_slow_slide_adds_up_against_the_hold_at_rest():
