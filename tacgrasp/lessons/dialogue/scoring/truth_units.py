@@ -112,7 +112,7 @@ def _has_gravity(truth: Expression) -> bool:
 
 
 def _factor(truth: Expression) -> float:
-    """What the first quantity is multiplied with, of a sum or of a pressure; 0 of a word or none."""
+    """What the first quantity is multiplied with, of a sum or pressure; 0 of a word, or of none."""
     if not truth.names:  # a number that was told in the question
         return 0.0
     zeros = dict.fromkeys(truth.names, 0.0)
