@@ -15,6 +15,7 @@ from __future__ import annotations
 import math
 from collections import deque
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -55,21 +56,12 @@ class ShearCues:
         depth_mm: Largest mean indentation [mm].
         volume_mm3: Mean indentation times area [mm³], which grows with the normal force.
         values: Shape (NUM_VALUES,): the cues of slip, of order 1.
-        profile: Shape (NUM_PROFILE,): the displacement by ring and harmonic, of order 1, which the
-            reserve is read from beside the first cues (``of_reserve``).
     """
 
     along_mm: tuple[float, float]
     depth_mm: float
     volume_mm3: float
     values: FloatArray
-    profile: FloatArray
-
-    @property
-    def of_reserve(self) -> FloatArray:
-        """Cues of the reserve, shape (NUM_OF_RESERVE,)."""
-        first, others = np.split(self.values[: NUM_VALUES - 3 * len(SPOTS)], [_NUM_CHANGES])
-        return np.concatenate([first, self.profile, others])
 
 
 class ShearWatch:
@@ -101,13 +93,33 @@ class ShearWatch:
 
     def see(self, field: ShearField) -> ShearCues | None:
         """Take a frame; the cues, or None where it shows no contact yet."""
+        if (shape := self._shape_with(field)) is None:
+            return None
+        drag = self._drag(shape)
+        changes, others = self._common(shape, drag)
+        return ShearCues(
+            along_mm=(float(drag.now[0]), float(drag.now[1])),
+            depth_mm=shape.depth_mm,
+            volume_mm3=shape.volume_mm3,
+            values=np.array([*changes, *others, *_samples(shape, drag)]),
+        )
+
+    def see_reserve(self, field: ShearField) -> FloatArray | None:
+        """Take a frame; the cues of the reserve (NUM_OF_RESERVE,), or None as ``see``."""
+        if (shape := self._shape_with(field)) is None:
+            return None
+        drag = self._drag(shape)
+        changes, others = self._common(shape, drag)
+        return np.array([*changes, *_profile(shape, drag), *others])
+
+    def _shape_with(self, field: ShearField) -> ContactShape | None:
+        """The shape of the contact once a frame is taken; None where it shows none."""
         grid = self._grid
         cells = grid.cells_of(field.positions_mm)
         moved, found = np.zeros((grid.count, 3)), np.zeros(grid.count)
         moved[cells], found[cells] = field.displacement_mm, 1.0
         self._keep(moved, found)
-        shape = ContactShape.of(self._height_mm, grid)
-        return None if shape is None else self._cues(shape)
+        return ContactShape.of(self._height_mm, grid)
 
     def _keep(self, moved: FloatArray, found: FloatArray) -> None:
         self._counts += found
@@ -119,34 +131,42 @@ class ShearWatch:
         self._moved.append(moved)
         self._found.append(found)
 
-    def _cues(self, shape: ContactShape) -> ShearCues:
+    def _drag(self, shape: ContactShape) -> _Drag:
         moved, found = np.array(self._moved), np.array(self._found)
         middles = _Middles(
             np.tensordot(moved[:, :, :2], shape.middle, (1, 0)), found @ shape.middle
         )
         now = middles.mean(-2, None)
         size = math.hypot(*now)
-        to = now / max(size, SMALL)
         noise = self._noise_mm[0] * shape.middle_noise
-        scale = max(size, 3 * noise, SMALL)
-        rest = shape.middle @ self._rest_mm[:, :2]
-        values = [
-            math.log1p(size / max(noise, SMALL)) / 3,
-            size / max(shape.depth_mm, SMALL) / 3,
-            noise / scale,
-            *(each / scale for each in _changes(middles, rest, to)),
-            *shape.numbers(to),
-            math.log(max(shape.depth_mm, 1e-3) / 0.1),
-            *self._moves(shape, to),
-            *_samples(shape, moved[-2:, :, :2], found[-2:], to, scale),
-        ]
-        return ShearCues(
-            along_mm=(float(now[0]), float(now[1])),
-            depth_mm=shape.depth_mm,
-            volume_mm3=shape.volume_mm3,
-            values=np.array(values),
-            profile=_profile(shape, moved[-2:, :, :2], found[-2:], to) / scale,
+        seen = found[-2:].sum(axis=0)
+        return _Drag(
+            middles=middles,
+            now=now,
+            size=size,
+            to=now / max(size, SMALL),
+            noise=noise,
+            scale=max(size, 3 * noise, SMALL),
+            mean=(found[-2:, :, None] * moved[-2:, :, :2]).sum(axis=0)
+            / np.maximum(seen, SMALL)[:, None],
+            is_seen=seen > 0,
         )
+
+    def _common(self, shape: ContactShape, drag: _Drag) -> tuple[list[float], list[float]]:
+        """Cues that slip and reserve share: of the drag and its changes, and of the indentation."""
+        rest = shape.middle @ self._rest_mm[:, :2]
+        changes = [
+            math.log1p(drag.size / max(drag.noise, SMALL)) / 3,
+            drag.size / max(shape.depth_mm, SMALL) / 3,
+            drag.noise / drag.scale,
+            *(each / drag.scale for each in _changes(drag.middles, rest, drag.to)),
+        ]
+        others = [
+            *shape.numbers(drag.to),
+            math.log(max(shape.depth_mm, 1e-3) / 0.1),
+            *self._moves(shape, drag.to),
+        ]
+        return changes, others
 
     def _moves(self, shape: ContactShape, to: FloatArray) -> list[float]:
         """How the indentation moved and grew since rest, since the frame before, and of late."""
@@ -183,6 +203,28 @@ class _Middles:
         return np.asarray(self._sums[part].sum(axis=0) / max(self._weights[part].sum(), SMALL))
 
 
+class _Drag(NamedTuple):
+    """How far the gel is dragged in the middle of a contact, over the last two frames.
+
+    Attributes:
+        middles: Displacements in the middle, of all kept frames.
+        now, size: That of the last two, (2,), and its size [mm].
+        to: Its direction, (2,).
+        noise, scale: What noise makes of it, and what displacements are divided by [mm].
+        mean: Shape (N, 2), displacement of each point [mm].
+        is_seen: Shape (N,), whether a point has one.
+    """
+
+    middles: _Middles
+    now: FloatArray
+    size: float
+    to: FloatArray
+    noise: float
+    scale: float
+    mean: FloatArray
+    is_seen: NDArray[np.bool_]
+
+
 def _changes(middles: _Middles, rest: FloatArray, to: FloatArray) -> list[float]:
     """The displacement in the middle against earlier ones, and against that at rest [mm]."""
     aside = np.array([-to[1], to[0]])
@@ -194,14 +236,10 @@ def _changes(middles: _Middles, rest: FloatArray, to: FloatArray) -> list[float]
     return [float(each @ direction) for each, direction in pairs]
 
 
-def _profile(
-    shape: ContactShape, moved: FloatArray, found: FloatArray, to: FloatArray
-) -> FloatArray:
-    """Displacement of some frames (F, N, 2) by ring and harmonic, weighed by height [mm]."""
-    seen = found.sum(axis=0)
-    mean = (found[:, :, None] * moved).sum(axis=0) / np.maximum(seen, SMALL)[:, None]
-    profile, aside = mean @ to, mean @ np.array([-to[1], to[0]])
-    has = seen > 0
+def _profile(shape: ContactShape, drag: _Drag) -> FloatArray:
+    """Displacement over its scale by ring and harmonic, weighed by height, (NUM_PROFILE,)."""
+    to, has = drag.to, drag.is_seen
+    profile, aside = drag.mean @ to, drag.mean @ np.array([-to[1], to[0]])
     rings = shape.rings * has
     counts = np.maximum(rings.sum(axis=1), SMALL)
     means = (rings @ profile) / counts
@@ -216,25 +254,23 @@ def _profile(
     powers = np.stack([inside * level**power for power in (*POWERS, 1.0)])
     ratios = (powers @ profile) / np.maximum(powers @ level, SMALL)
     bends = ratios[:-1] - ratios[-1]
-    return np.array([*means[1:], *quadrupole, ratios[-1], *bends, *harmonics.ravel()])
+    parts = [*means[1:], *quadrupole, ratios[-1], *bends, *harmonics.ravel()]
+    return np.array(parts) / drag.scale
 
 
-def _samples(
-    shape: ContactShape, moved: FloatArray, found: FloatArray, to: FloatArray, scale: float
-) -> FloatArray:
-    """Displacement of some frames (F, N, 2) over a scale, and heights over the depth, at ``SPOTS``.
+def _samples(shape: ContactShape, drag: _Drag) -> FloatArray:
+    """Displacement over its scale, along and across the drag, and height over depth, at ``SPOTS``.
 
     Returns:
-        Shape (3 len(SPOTS),): displacement along the drag, across it, height.
+        Shape (3 len(SPOTS),).
     """
+    to = drag.to
     weights = shape.weights_at(SPOTS, to)
-    seen = found.sum(axis=0)
-    mean = (found[:, :, None] * moved).sum(axis=0) / np.maximum(seen, SMALL)[:, None]
-    known = weights * (seen > 0)
+    known = weights * drag.is_seen
     known /= np.maximum(known.sum(axis=1, keepdims=True), SMALL)
     is_on_pad = weights.any(axis=1)
-    turned = mean @ np.array([[to[0], -to[1]], [to[1], to[0]]])
-    along, across = (known @ turned).T * is_on_pad / scale
+    turned = drag.mean @ np.array([[to[0], -to[1]], [to[1], to[0]]])
+    along, across = (known @ turned).T * is_on_pad / drag.scale
     return np.concatenate([along, across, weights @ shape.height_mm / shape.depth_mm])
 
 
@@ -253,13 +289,9 @@ ellipse, whose edge a sphere's contact has at 1.2. Our choice: from inside it to
 _MIRRORED = (6, 9, 22, 25)
 """Cues that change their sign in a mirror along the drag, beside the displacement across it."""
 
-_NUM_CHANGES = 3 + 7
-NUM_VALUES = _NUM_CHANGES + (4 + 4) + 1 + (2 + 3 + 3 + 3) + 3 * len(SPOTS)
-"""Number of cues of slip."""
-
-NUM_PROFILE = 4 + 3 + 1 + len(POWERS) + 8
-NUM_OF_RESERVE = NUM_VALUES - 3 * len(SPOTS) + NUM_PROFILE
-"""Numbers of the profile, and of the cues of the reserve."""
+_NUM_COMMON, NUM_PROFILE = 3 + 7 + (4 + 4) + 1 + (2 + 3 + 3 + 3), 4 + 3 + 1 + len(POWERS) + 8
+NUM_VALUES, NUM_OF_RESERVE = _NUM_COMMON + 3 * len(SPOTS), _NUM_COMMON + NUM_PROFILE
+"""Numbers of the cues of slip, and of the reserve."""
 
 
 def _mirror() -> tuple[NDArray[np.intp], FloatArray]:

@@ -131,8 +131,7 @@ def mean_cues(mean: MeanField, noise_mm: tuple[float, float]) -> FloatArray | No
     Arguments are those of ``ReserveModel.read``.
     """
     along_mm, depth_mm = (each / mean.frames**0.5 for each in noise_mm)
-    cues = ShearWatch(mean.field.sensor, along_mm, depth_mm).see(mean.field)
-    return None if cues is None else cues.of_reserve
+    return ShearWatch(mean.field.sensor, along_mm, depth_mm).see_reserve(mean.field)
 
 
 @lru_cache
@@ -152,7 +151,9 @@ def reserve_model(sensor_name: str) -> ReserveModel:
     except (OSError, EOFError, BadZipFile, ValueError, KeyError) as error:
         raise TouchError(f"no model of the reserve of {sensor_name!r} in {path}: {error}") from None
     if model.mean.shape != (NUM_OF_RESERVE,) or len(layers[-1][1]) != len(QUANTILES):
-        raise TouchError(f"{path} is of another version: train anew (`tacgrasp train slip --help`)")
+        raise TouchError(
+            f"{path} is of another version: train anew (`tacgrasp train reserve --help`)"
+        )
     return model
 
 
