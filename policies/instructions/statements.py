@@ -45,7 +45,7 @@ _CLAUSE = re.compile(
 _ENDS = re.compile(r"[.;!?](?!\d)\s*")
 _FORCE = re.compile(rf"{ONE_FORCE}(?:\s*(?:to|-|–|and|or)\s*{ONE_FORCE})?")
 _NOT_MEANT, _CONDITION, _GAUGE = map(_section, ("not_meant", "condition", "gauge"))
-_SAYS, _FORCE_NOUN = map(_section, ("says_a_force", "force_noun"))
+_SAYS = _section("says_a_force")
 _OTHERS_SAY = re.compile(
     r"^(?:they|people|some(?:one|body|thing)|some (?:\w+ )?(?:people|folks|guys?|bloke|man|woman)|nobody|no one|everyone|everybody|who\w*|rumou?r|legend|word|[a-z]* ?bloke)\b|\b(?:internet|nobody|no one|(?:some|any)(?:one|body))\b"
 )

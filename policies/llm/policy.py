@@ -173,9 +173,9 @@ class LlmPolicy:
         """
         terms = contract.terms
         state = contact_state(observation.cloud, in_contact=observation.in_contact)
-        against = refuted(contract, observation.felt_force_n, state)
         if too_far := pressed_too_far(contract, observation.felt_force_n, state):
-            return loosened(too_far)
+            return _as_measured(too_far, Primitive.DECREASE_FORCE)
+        against = refuted(contract, observation.felt_force_n, state)
         barred = [f"<{action or 'none'}>" for action in against]
         return self.follow(observation, terms.force_n, terms.limit_n, barred)
 
@@ -415,18 +415,11 @@ def by_felt_force(flags: str, felt: Interval, force_n: Band) -> Decision:
     is_below = felt.value < force_n.low
     side = f"below {force_n.low:.2f}" if is_below else f"above {force_n.high:.2f}"
     action = Primitive.INCREASE_FORCE if is_below else Primitive.DECREASE_FORCE
-    reason = f"{flags}; {felt.value:.2f} N is felt directly, {side} N"
-    return Decision(
-        text=f"{reason[0].upper()}{reason[1:]}. Action: <{action}>.",
-        action=action,
-        success=False,
-        reason=reason,
-    )
+    return _as_measured(f"{flags}; {felt.value:.2f} N is felt directly, {side} N", action)
 
 
-def loosened(reason: str) -> Decision:
-    """The decision on a contact that is pressed too far for the contract, as it is measured."""
-    action = Primitive.DECREASE_FORCE
+def _as_measured(reason: str, action: Primitive) -> Decision:
+    """The decision for an action on what is measured, without the model."""
     text = f"{reason[0].upper()}{reason[1:]}. Action: <{action}>."
     return Decision(text=text, action=action, success=False, reason=reason)
 

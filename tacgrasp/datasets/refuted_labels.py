@@ -9,6 +9,7 @@ Not here: reading a table of labels (``tacgrasp.datasets.import_touches``).
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 from cltp.tactile.states import AREA_LIMITS, DEPTH_LIMITS_MM, Area, Depth
 
@@ -55,8 +56,7 @@ def refuted_number(depth_mm: float, measured_mm: float, highest_mm: float) -> st
 
 def refuted_depth(word: Depth, measured_mm: float, highest_mm: float) -> str:
     """How heights refute a class of depth; the arguments are those of ``refuted_number``."""
-    number = list(Depth).index(word)
-    low_mm, high_mm = (0.0, *DEPTH_LIMITS_MM)[number], (*DEPTH_LIMITS_MM, math.inf)[number]
+    low_mm, high_mm = _limits(word, DEPTH_LIMITS_MM)
     is_more = low_mm > WORD_FACTOR * highest_mm + SLACK_MM
     if not is_more and WORD_FACTOR * high_mm + SLACK_MM >= min(measured_mm, highest_mm):
         return ""
@@ -72,13 +72,18 @@ def refuted_area(word: Area, fraction: float, measured_mm: float) -> str:
         fraction: Fraction of the sensing area in contact, as it is measured.
         measured_mm: Depth that is measured from the heights [mm].
     """
-    number = list(Area).index(word)
-    low, high = (0.0, *AREA_LIMITS)[number], (*AREA_LIMITS, math.inf)[number]
+    low, high = _limits(word, AREA_LIMITS)
     is_less = measured_mm >= CLEAR_MM and AREA_FACTOR * high + MORE_AREA < fraction
     if not is_less and low <= AREA_FACTOR * fraction + LESS_AREA:
         return ""
     shown = _range(100 * low, 100 * high, "%")
     return f"area {word} ({shown}), but {fraction:.1%} of the pad seems to be in contact"
+
+
+def _limits(word: Depth | Area, limits: Sequence[float]) -> tuple[float, float]:
+    """Least and most of a class, by the limits between the classes of its kind."""
+    number = list(type(word)).index(word)
+    return (0.0, *limits)[number], (*limits, math.inf)[number]
 
 
 def _range(low: float, high: float, unit: str) -> str:
