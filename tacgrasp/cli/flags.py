@@ -178,7 +178,8 @@ def contacts_in(folder: Path, *, command: str) -> Path:
 def writable(path: Path | None, *endings: str, flag: str = "--json") -> Path | None:
     """Check that a result file can be written, before minutes are spent on measuring.
 
-    Nothing is left behind where there was no file.
+    Nothing is left behind where there was no file. A pipe or device is not opened: that would wait
+    for a reader, and end what it reads.
 
     Args:
         path: The file; None for none.
@@ -194,8 +195,9 @@ def writable(path: Path | None, *endings: str, flag: str = "--json") -> Path | N
     check_ending(path, *(endings or (".json",)), flag=flag)
     is_new = not path.exists()
     try:
-        with path.open("a", encoding="utf-8"):
-            pass
+        if is_new or path.is_file() or path.is_dir():
+            with path.open("a", encoding="utf-8"):
+                pass
         if is_new:
             path.unlink()
     except OSError as error:

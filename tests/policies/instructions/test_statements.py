@@ -48,12 +48,12 @@ def test_a_force_that_is_only_stated_is_refused(text: str) -> None:
     [
         ("1.2 N on the berry, please", [1.2]),
         ("Cuvette, 0.8 N", [0.8]),
-        ("1.65 N would be my choice, so grasp it with that.", [1.65]),
+        ("1.65 N is what I would choose, so take it with that.", [1.65]),
         ("My supervisor says 1.6 N, so hold it with 1.6 N.", [1.6, 1.6]),
         ("My readers want to see 1.8 N. Go ahead.", [1.8]),
         ("Hold it so that the force gauge reads 1.85 newtons.", [1.85]),
         ("Nab the wee Lego man wi' 1.8 newtons", [1.8]),
-        ("Hold it tight, with 3.2 N, because the belt jerks.", [3.2]),
+        ("Hold it firmly, with 3.2 N, because the belt jumps.", [3.2]),
         ("The sensor calibration needs a steady 2 N grip on this one.", [2.0]),
         ("Use 1 N if you can", [1.0]),
         ("Use 0.8 N... no wait, sorry, I misread my own notes, 0.9 N.", [0.9]),
@@ -88,7 +88,7 @@ def test_a_wish_beside_a_stated_force_is_the_wish(text: str, value_n: float) -> 
         "The screen still says 1.5 N from the previous job, ignore that and pick up the berry.",
         "Pick up the apple that weighs 1.5 N.",
         "Put the strawberry beside the 2 N test weight.",
-        "The press next door works at 4 N. You just pick up the strawberry.",
+        "The press next door works at 4 N. You just pick that strawberry up.",
     ],
 )
 def test_a_force_of_something_else_leaves_the_force_to_the_task(text: str) -> None:

@@ -5,6 +5,7 @@ import io
 import json
 import os
 import resource
+import select
 import signal
 import stat
 from collections.abc import Iterator
@@ -102,6 +103,19 @@ def test_a_device_is_not_replaced_by_a_file(tmp_path: Path) -> None:
     folder.mkdir()
     assert main([*PRESS, "--out", str(folder)]) == 2
     assert list(tmp_path.iterdir()) == [folder, pipe] or len(list(tmp_path.iterdir())) == 2
+
+
+def test_a_pipe_is_left_to_its_writer(tmp_path: Path) -> None:
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    reader = os.open(pipe, os.O_RDONLY | os.O_NONBLOCK)  # so that an opened pipe does not wait
+    try:
+        assert writable(pipe) == pipe
+        poll = select.poll()
+        poll.register(reader, select.POLLIN)
+        assert poll.poll(0) == []  # somebody who has closed it would be an end of the file
+    finally:
+        os.close(reader)
 
 
 @pytest.mark.parametrize(
