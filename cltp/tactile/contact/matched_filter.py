@@ -199,7 +199,7 @@ class _Kind:
         self._modes = modes = _modes(sensor, n, local_part)
         drift = STRENGTHS_MM**2 * modes.variances[:, None]
         self._variances = noise_mm**2 + (ROUGH_PART * STRENGTHS_MM) ** 2 + drift
-        self._norms = modes.bumps**2 @ (1 / self._variances)
+        self._norms = modes.squared_bumps @ (1 / self._variances)
         self._log_volume = np.log(self._variances).sum(axis=0)
         broad_mm = STRENGTHS_MM / math.hypot(1, local_part)
         self._grown_s = np.maximum(
@@ -230,22 +230,26 @@ class _Kind:
     def fit_shape(self, heights_mm: FloatArray, shape: FloatArray, elapsed_s: float) -> _ShapeFit:
         """The best contact of a shape (n², parts) on heights (n²,) [mm]."""
         modes = self._modes
+        variances = self._variances[:, : self._num_strengths(elapsed_s)].T
         amplitudes, parts = modes.shapes.T @ heights_mm, modes.shapes.T @ shape
-        best = _ShapeFit(-math.inf, np.zeros_like(heights_mm))
-        for strength in range(self._num_strengths(elapsed_s)):
-            whitened = parts / self._variances[:, strength, None]
-            normal = whitened.T @ parts
-            scale = 1 / np.sqrt(np.diag(normal))
-            normal *= scale[:, None] * scale
-            normal[np.diag_indices_from(normal)] += SHAPE_RIDGE
-            products = scale * (whitened.T @ amplitudes)
-            sizes = np.linalg.solve(normal, products)
-            without = -(amplitudes**2 / self._variances[:, strength]).sum()
-            gain = float(without - self._log_volume[strength] + products @ sizes)
-            contact = shape @ (scale * sizes)
-            if gain > best.gain and contact.max() > -contact.min():
-                best = _ShapeFit(gain, contact)
-        return best
+        whitened = (parts / variances[:, :, None]).transpose(0, 2, 1)
+        normal = whitened @ parts
+        scale = 1 / np.sqrt(np.diagonal(normal, axis1=1, axis2=2))
+        normal *= scale[:, :, None] * scale[:, None, :]
+        normal += SHAPE_RIDGE * np.eye(normal.shape[1])
+        products = scale * (whitened @ amplitudes)
+        sizes = np.linalg.solve(normal, products[:, :, None])[:, :, 0]
+        without = -(amplitudes**2 / variances).sum(axis=1) - self._log_volume[: len(variances)]
+        contacts = (scale * sizes) @ shape.T
+        gains = np.where(
+            contacts.max(axis=1) > -contacts.min(axis=1),
+            without + (products * sizes).sum(axis=1),
+            -math.inf,
+        )
+        best = int(gains.argmax())
+        if gains[best] == -math.inf:
+            return _ShapeFit(-math.inf, np.zeros_like(heights_mm))
+        return _ShapeFit(float(gains[best]), contacts[best])
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -258,6 +262,7 @@ class _Modes:
         variances: Shape (n² - 3,): of each shape.
         heights: Shape (bumps, n²): bumps of height 1 [mm].
         bumps: Shape (bumps, n² - 3): each as a sum of the shapes.
+        squared_bumps: Shape (bumps, n² - 3): their squares.
         places_mm: Shape (bumps, 2): their middles [mm].
     """
 
@@ -266,6 +271,7 @@ class _Modes:
     variances: FloatArray
     heights: FloatArray
     bumps: FloatArray
+    squared_bumps: FloatArray
     places_mm: FloatArray
 
 
@@ -285,12 +291,14 @@ def _modes(sensor: SensorSpec, n: int, local_part: float) -> _Modes:
     places = np.stack([axis.ravel() for axis in np.meshgrid(*_bump_axes_mm(sensor))], axis=1)
     from_bump = (places[:, :1] - x) ** 2 + (places[:, 1:] - y) ** 2
     heights = np.concatenate([np.exp(-0.5 * from_bump / width**2) for width in WIDTHS_MM])
+    bumps = heights @ shapes
     return _Modes(
         covariance=covariance,
         shapes=shapes,
         variances=np.clip(variances, 0.0, None),
         heights=heights,
-        bumps=heights @ shapes,
+        bumps=bumps,
+        squared_bumps=bumps**2,
         places_mm=np.tile(places, (len(WIDTHS_MM), 1)),
     )
 
