@@ -7,8 +7,10 @@ them is one line that names the place.
 
 from __future__ import annotations
 
+import copy
 import re
 from collections.abc import Hashable
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -91,6 +93,12 @@ class _StrictLoader(yaml.SafeLoader):
         return mapping
 
 
+@lru_cache(maxsize=32)
+def _loaded(text: str) -> Any:
+    """Values of a document: many episodes read the same few files."""
+    return yaml.load(text, Loader=_StrictLoader)
+
+
 def read_yaml(text: str) -> Any:
     """Values of a YAML document: mappings with names as keys, lists, numbers, texts, dates.
 
@@ -102,7 +110,7 @@ def read_yaml(text: str) -> Any:
     if len(text) > MAX_CHARACTERS:
         raise YamlError(f"{len(text)} characters; at most {MAX_CHARACTERS} are read")
     try:
-        return yaml.load(text, Loader=_StrictLoader)
+        return copy.deepcopy(_loaded(text))  # whoever reads it may change it
     except (_Refused, ConstructorError) as error:
         raise YamlError(_line(error)) from None
     except yaml.YAMLError as error:
