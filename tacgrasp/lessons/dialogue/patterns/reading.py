@@ -52,7 +52,9 @@ class WordingReader:
 
     def understand(self, node: Node) -> Understood | None:
         """What the text says by a pattern, in the first way that it has; None where it has none."""
-        end = len(self._words)
+        end, begin = len(self._words), _begin(node)
+        if not begin.is_optional and (not self._words or self._words[0] not in begin.words):
+            return None
         if end not in self._ends(node, 0):
             return None
         bindings: dict[str, str] = {}
@@ -78,12 +80,10 @@ class WordingReader:
                 return self._chain(parts, at)
             case OneOf(parts, optional):
                 word = self._words[at] if self._is_in(at) else ""
-                tried = [
-                    part
-                    for part in parts
-                    if word in (begin := _begin(part)).words or begin.is_optional
-                ]
-                ends = dict.fromkeys(end for part in tried for end in self._ends(part, at))
+                by_word, otherwise = _parts_by_first_word(parts)
+                ends: dict[int, None] = {}
+                for part in by_word.get(word, otherwise):
+                    ends |= dict.fromkeys(self._ends(part, at))
                 return tuple(ends | {at: None} if optional else ends)
             case Bound(_, _, part):
                 return self._ends(part, at)
@@ -163,6 +163,21 @@ def _begin(node: Node) -> _Begin:
         case ListSlot(_, entries):
             return _Begin(frozenset(_by_first_word(entries)), False)
     return _Begin(frozenset([NUMBER]), False)
+
+
+@cache
+def _parts_by_first_word(
+    parts: tuple[Node, ...],
+) -> tuple[Mapping[str, Sequence[Node]], Sequence[Node]]:
+    """Parts that may produce something before a word, by that word; and those before any other."""
+    begins = [_begin(part) for part in parts]
+    words = set().union(*(begin.words for begin in begins))
+    found: dict[str, list[Node]] = {word: [] for word in words}
+    for part, begin in zip(parts, begins, strict=True):
+        for word in words if begin.is_optional else begin.words:
+            found[word].append(part)
+    otherwise = [part for part, begin in zip(parts, begins, strict=True) if begin.is_optional]
+    return found, otherwise
 
 
 @cache
