@@ -1,7 +1,7 @@
 import io
 import math
 import shutil
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -97,28 +97,32 @@ def data_dir(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return write_contacts(tmp_path_factory.mktemp("data"), seeds)
 
 
-@pytest.fixture(scope="module")
-def trained(data_dir: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Tiny weights that have learned a few clean contacts by heart."""
-    folder = tmp_path_factory.mktemp("weights")
-    words = train_words(data_dir, FakeLessons(), num_contacts=60, size=400)
-    run = TrainingRun(data=data_dir, out=folder)
+def train_all(data: Path, folder: Path, steps: Mapping[str, int]) -> Path:
+    """Train tiny weights of every part on clean contacts."""
+    words = train_words(data, FakeLessons(), num_contacts=60, size=400)
+    run = TrainingRun(data=data, out=folder)
     train_clip(run, words, schedule(6, CONTACTS), dim=32)
-    train_cltp(run, TINY, schedule(150, CONTACTS), augmentation=CLEAN)
+    train_cltp(run, TINY, schedule(steps["encoder"], CONTACTS), augmentation=CLEAN)
     train_llm(
         run,
         words,
         FakeLessons(),
-        {
-            "text": schedule(40, CONTACTS, 5e-3),
-            "projector": schedule(30, CONTACTS, 5e-3),
-            "joint": schedule(130, CONTACTS, 5e-3),
-        },
+        {stage: schedule(steps[stage], CONTACTS, 5e-3) for stage in ("text", "projector", "joint")},
         dim=48,
         layers=2,
         augmentation=CLEAN,
     )
     return folder
+
+
+FEW_STEPS = {"encoder": 20, "text": 2, "projector": 2, "joint": 4}
+"""Steps of weights that exist, and need not be good."""
+
+
+@pytest.fixture(scope="module")
+def trained(data_dir: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Tiny weights after a few steps."""
+    return train_all(data_dir, tmp_path_factory.mktemp("weights"), FEW_STEPS)
 
 
 def test_the_contrastive_loss_of_two_orthogonal_pairs_is_known() -> None:
@@ -329,7 +333,10 @@ def test_an_error_while_making_a_batch_is_raised_in_its_place() -> None:
     assert list(prefetched([1, 2, 3])) == [1, 2, 3]
 
 
-def test_a_handful_of_contacts_is_learned_by_heart(trained: Path, data_dir: Path) -> None:
+@pytest.mark.slow
+def test_a_handful_of_contacts_is_learned_by_heart(data_dir: Path, tmp_path: Path) -> None:
+    steps = {"encoder": 150, "text": 40, "projector": 30, "joint": 130}
+    trained = train_all(data_dir, tmp_path, steps)
     data = ContactDataset(data_dir, split=Split.TRAIN)
     encoder, heads = load_encoder(trained / "encoder")
     samples = random_batches(data, CONTACTS, CLEAN)
@@ -475,7 +482,7 @@ def test_a_loss_that_is_not_finite_stops_the_stage(tmp_path: Path) -> None:
 def test_a_finished_training_is_not_repeated(trained: Path, data_dir: Path) -> None:
     before = (trained / "encoder" / "model.safetensors").stat().st_mtime_ns
     run = TrainingRun(data=data_dir, out=trained)
-    train_cltp(run, TINY, schedule(150, CONTACTS), augmentation=CLEAN)
+    train_cltp(run, TINY, schedule(FEW_STEPS["encoder"], CONTACTS), augmentation=CLEAN)
     assert (trained / "encoder" / "model.safetensors").stat().st_mtime_ns == before
 
 

@@ -120,6 +120,7 @@ def test_a_training_killed_twenty_times_ends_with_the_same_curve_and_weights(
     assert_same_training(tmp_path / "whole", tmp_path / "cut")
 
 
+@pytest.mark.slow
 def test_a_training_killed_hard_ends_with_the_same_curve_and_weights(
     data_dir: Path, towers_dir: Path, tmp_path: Path
 ) -> None:

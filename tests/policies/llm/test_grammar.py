@@ -231,6 +231,9 @@ def test_random_changes_of_a_character_are_refused_or_say_something_else() -> No
     assert refused > 700
 
 
+@pytest.mark.parametrize(
+    "words", [pytest.param("small", marks=pytest.mark.slow), "shipped"], indirect=True
+)
 def test_ten_thousand_replies_by_chance_all_keep_the_grammar(words: Words) -> None:
     tokens = TextTokens(words.encode)
     named, barred_named, doubts, intervals = set(), set(), 0, 0

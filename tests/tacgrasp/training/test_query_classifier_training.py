@@ -6,6 +6,7 @@ import shutil
 import numpy as np
 import pytest
 import torch
+from rich.console import Console
 
 from cltp.checkpoints.stored_classifier import load_classifier
 from tacgrasp.__main__ import main
@@ -13,7 +14,8 @@ from tacgrasp.lessons.dialogue.query import read_query
 from tacgrasp.training import query_classifier
 from tacgrasp.training.query_classifier import QueryClassifierRequest, draw_block, train
 
-STEPS = 128
+FEW_STEPS, STEPS = 8, 128
+"""Steps of a training that is stopped half-way, and of one that learns."""
 
 
 @pytest.fixture(autouse=True)
@@ -45,13 +47,17 @@ def test_blocks_are_deterministic_and_hold_queries():
         assert name == "several" or read_query(name, (1.0, 2.0, 3.0, 4.0)) is not None
 
 
-def test_it_learns_and_goes_on_where_it_stopped(tmp_path):
-    from rich.console import Console
+def request_in(folder, steps):
+    return QueryClassifierRequest(out=folder, questions=1200, steps=steps)
 
-    def request(name, steps):
-        return QueryClassifierRequest(out=tmp_path / name, questions=1200, steps=steps)
 
-    train(request("whole", STEPS), Console(quiet=True))
+def losses_in(folder):
+    curve = (folder / ".training" / "queries.csv").read_text().splitlines()
+    return [float(row.split(",")[2]) for row in curve[1:]]
+
+
+def test_it_goes_on_where_it_stopped(tmp_path):
+    train(request_in(tmp_path / "whole", FEW_STEPS), Console(quiet=True))
     whole = load_classifier(tmp_path / "whole")
     (drawn,) = (tmp_path / "whole" / ".training").glob("questions-*.tsv")
     (tmp_path / "stopped" / ".training").mkdir(parents=True)
@@ -64,7 +70,7 @@ def test_it_learns_and_goes_on_where_it_stopped(tmp_path):
     class Stopping(stage):
         def train(self, losses):
             def some(step):
-                if step == STEPS // 2:
+                if step == FEW_STEPS // 2:
                     self.save()
                     raise StoppedError
                 return losses(step)
@@ -74,16 +80,22 @@ def test_it_learns_and_goes_on_where_it_stopped(tmp_path):
     query_classifier.Stage = Stopping
     try:
         with pytest.raises(StoppedError):
-            train(request("stopped", STEPS), Console(quiet=True))
+            train(request_in(tmp_path / "stopped", FEW_STEPS), Console(quiet=True))
     finally:
         query_classifier.Stage = stage
-    train(request("stopped", STEPS), Console(quiet=True))
+    train(request_in(tmp_path / "stopped", FEW_STEPS), Console(quiet=True))
     stopped = load_classifier(tmp_path / "stopped")
     for name, value in whole.state_dict().items():
         assert torch.equal(value, stopped.state_dict()[name]), name
-    curve = (tmp_path / "whole" / ".training" / "queries.csv").read_text().splitlines()
-    assert len(curve) == STEPS + 1
-    losses = [float(row.split(",")[2]) for row in curve[1:]]
+    assert len(losses_in(tmp_path / "whole")) == FEW_STEPS
+    assert losses_in(tmp_path / "stopped") == losses_in(tmp_path / "whole")
+
+
+@pytest.mark.slow
+def test_it_learns(tmp_path):
+    train(request_in(tmp_path, STEPS), Console(quiet=True))
+    losses = losses_in(tmp_path)
+    assert len(losses) == STEPS
     last = losses[-query_classifier.POOL :]  # steps that share questions of all lengths
     assert np.mean(last) < 0.8 * np.mean(losses[:5])
 

@@ -204,6 +204,21 @@ def in_this_process(console, name, function, seeds):
     return map(function, seeds)
 
 
+def test_an_arm_that_knows_the_fruit_succeeds_and_its_figures_are_written(tmp_path, monkeypatch):
+    monkeypatch.setattr(results_file, "each_result", in_this_process)  # a pool loads for seconds
+    report = bench(tmp_path / "a.json", "--arms", "oracle", "--episodes", "1")
+    (arm,) = report["arms"].values()
+    assert set(arm) == KEYS
+    assert (arm["n"], arm["success_rate"]) == (1, 1.0)
+    assert report["redrawn_share"] == 0.0
+    assert report["firm_over_gentle"] is None
+    results = report["results"]
+    ((seed, (result,)),) = results["oracle"].items()
+    fruit = results["fruit"][seed]
+    assert result["slip_minimum_n"] == pytest.approx(fruit["slip_minimum_n"])
+
+
+@pytest.mark.slow
 def test_a_run_that_goes_on_is_the_run_at_once_and_every_arm_has_the_same_fruit(
     tmp_path, monkeypatch
 ):
