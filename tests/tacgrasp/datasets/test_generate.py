@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 import time
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
@@ -170,6 +171,8 @@ def test_who_stops_it_is_told_that_it_stops(tmp_path, monkeypatch, caplog):
         raise KeyboardInterrupt
 
     monkeypatch.setattr(made, "as_completed", interrupted)
+    monkeypatch.setattr(made, "worker_pool", ThreadPoolExecutor)  # processes load for seconds
+    monkeypatch.setattr(made, "_make_shard", lambda job, plan: 0)
     with pytest.raises(KeyboardInterrupt):
         generate(tmp_path / "data", contacts=10, workers=2)
     assert "stopping, once the workers have; the same command goes on" in caplog.text

@@ -28,7 +28,7 @@ BALLS = SHARED_DATA / "gelsight_mini_balls"
 def calibrated(folder, tmp_path_factory):
     out = tmp_path_factory.mktemp("out") / "mine.safetensors"
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(calibrate, "train_gradients", partial(train_gradients, steps=200))
+        patch.setattr(calibrate, "train_gradients", partial(train_gradients, steps=80))
         assert main(
             ["calibrate", "gelsight-mini", "--balls", str(folder), "--diameter-mm", "6",
              "--out", str(out), "--unit", "mine", "--date", "2026-01-31"]
@@ -76,7 +76,7 @@ def test_describe_asks_for_the_background_of_a_frame(folder, capsys):
 
 
 def test_the_benchmark_measures_presses_that_it_left_out(folder, tmp_path, capsys, monkeypatch):
-    brief = partial(train_gradients, steps=200)
+    brief = partial(train_gradients, steps=100)
     monkeypatch.setattr(bench_balls, "train_gradients", brief)
     report = tmp_path / "balls.json"
     came_out = bench_balls.run(BallsSettings(data=folder, diameter_mm=6.0, folds=2, json=report))
