@@ -1,3 +1,4 @@
+import gc
 import os
 
 # Models this small lose by sharing a step among threads. Before torch, and for every child process.
@@ -13,6 +14,12 @@ from hypothesis import settings
 # A busy machine fails no test. The same code meets the same examples: a red test is the change's.
 settings.register_profile("repeatable", deadline=None, derandomize=True)
 settings.load_profile("repeatable")
+
+
+def pytest_collection_finish() -> None:
+    """What was imported and collected stays: no search for garbage goes through it again."""
+    gc.collect()
+    gc.freeze()
 
 
 @pytest.fixture(scope="session", autouse=True)
