@@ -151,8 +151,9 @@ def _readings(step: StepRecord) -> Readings:
 def repeat(episode: Episode, rig: Rig, config: RunConfig) -> Generator[RepeatedAction, None, None]:
     """Move a rig as in the episode: slowly to its start, then action by action, within limits.
 
-    The recorded clouds play no part. At the end, after an error too, the arm is stopped and the
-    gripper holds or releases as the task says.
+    The recorded clouds play no part. What a failed episode had lifted is lowered again. At the end,
+    after an error too, the arm is stopped and the gripper holds or releases as the task says; what
+    hangs in the air after an error is held.
 
     Yields:
         Every action, after its execution.
@@ -174,6 +175,7 @@ def repeat(episode: Episode, rig: Rig, config: RunConfig) -> Generator[RepeatedA
     if episode.header.dry_run:
         raise EpisodeError("the episode was a dry run, which moved nothing; nothing to repeat")
     is_success = episode.end is not None and episode.end.reason == EndReason.SUCCESS
+    may_hang = is_done = False
     try:
         _approach(rig, episode.steps[0].tcp_pose, config)
         executor = make_executor(rig, config, _contract_to_repeat(episode, config))
@@ -190,12 +192,20 @@ def repeat(episode: Episode, rig: Rig, config: RunConfig) -> Generator[RepeatedA
                     deviation_n=executed.force_n - recorded.force_n,
                 )
             elif step.phase is StepPhase.VERIFY_AFTER:
-                check_workspace(step.tcp_pose, config.limits())
-                speed, acceleration = config.verify.speed_m_s, config.verify.acceleration_m_s2
-                rig.arm.move_to(step.tcp_pose, speed_m_s=speed, acceleration_m_s2=acceleration)
+                start, may_hang = rig.arm.pose(), True
+                for pose in (step.tcp_pose,) if is_success else (step.tcp_pose, start):
+                    check_workspace(pose, config.limits())
+                    rig.arm.move_to(
+                        pose,
+                        speed_m_s=config.verify.speed_m_s,
+                        acceleration_m_s2=config.verify.acceleration_m_s2,
+                    )
+                may_hang = is_success
+        is_done = True
     finally:
         rig.arm.stop()
-        if (config.on_success if is_success else config.on_failure) == "release":
+        action = config.on_success if is_success else config.on_failure
+        if action == "release" and (is_done or not may_hang):
             rig.gripper.open_by(config.primitives.clear_mm / 1000)
 
 

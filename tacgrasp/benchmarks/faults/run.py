@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import logging
-from contextlib import closing
+from collections.abc import Iterator
+from contextlib import closing, contextmanager
 from dataclasses import asdict
 
 from rich.progress import Progress
@@ -21,6 +22,18 @@ from tacgrasp.benchmarks.settings import FaultsSettings
 from tacgrasp.config.layers import load
 from tacgrasp.console import make_console
 from tacgrasp.drivers.scheduling import granted
+
+
+@contextmanager
+def _quiet_drivers() -> Iterator[None]:
+    """Drivers that report no faults: here they are intended."""
+    drivers = logging.getLogger("tacgrasp.drivers")
+    before = drivers.level
+    drivers.setLevel(logging.CRITICAL)
+    try:
+        yield
+    finally:
+        drivers.setLevel(before)
 
 
 def run(settings: FaultsSettings) -> bool:
@@ -43,12 +56,12 @@ def run(settings: FaultsSettings) -> bool:
     if config.hardware is None:
         raise UsageError("rigs/emulated.yaml names no hardware")
     console, rows = make_console(), []
-    logging.getLogger("tacgrasp.drivers").setLevel(logging.CRITICAL)  # faults are intended here
     console.print(f"granted to the drivers: {granted()}")
     if settings.fault_free:
-        with busy_cores(settings.load):
+        with _quiet_drivers(), busy_cores(settings.load):
             return fault_free.run(settings, console)
     with (
+        _quiet_drivers(),
         busy_cores(settings.load),
         EmulatorProcess("rig") as emulators,
         Progress(console=console, transient=True) as progress,

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from primitives import RobotError
 from primitives.contract import Contract, default_limit_n
 from sim.grasp.rig import SimRig, build
 from tacgrasp.__main__ import main
@@ -17,6 +18,7 @@ from tacgrasp.episodes import Episode, read_episode
 from tacgrasp.playback.replay import contract_in, repeat, times_from_s
 from tacgrasp.policy_factory import make_policy
 from tacgrasp.run import run_recorded
+from tacgrasp.runtime.outcome import EndReason
 from tests.fakes.contracts import STRAWBERRY, contract
 
 SEED = 3
@@ -68,6 +70,41 @@ def test_an_episode_with_another_contract_than_the_task_keeps_its_own(tmp_path: 
     rig = rig_for(settings)
     list(repeat(episode, rig, settings))
     assert rig.truth().peak_force_n <= light.limit_n
+
+
+def unverified(episode: Episode) -> Episode:
+    assert episode.end is not None
+    return replace(episode, end=replace(episode.end, reason=EndReason.UNVERIFIED))
+
+
+def test_what_a_failed_episode_had_lifted_is_lowered_before_it_is_let_go(tmp_path: Path) -> None:
+    episode, settings = recorded("strawberry", tmp_path)
+    settings = settings.model_copy(update={"on_failure": "release"})
+    rig = rig_for(settings)
+    list(repeat(unverified(episode), rig, settings))
+    lifted_m, stood_m = (episode.steps[k].tcp_pose.position_m[2] for k in (-1, -2))
+    assert rig.arm.pose().position_m[2] == pytest.approx(stood_m, abs=1e-4)
+    assert lifted_m > stood_m + 0.01
+    assert not rig.gripper.state().closed
+
+
+def test_what_hangs_in_the_air_after_an_error_is_held(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    episode, settings = recorded("strawberry", tmp_path)
+    settings = settings.model_copy(update={"on_failure": "release"})
+    rig, moves = rig_for(settings), type(rig_for(settings).arm).move_to
+    lifted = episode.steps[-1].tcp_pose
+
+    def fails_up_there(arm, pose, **how):  # type: ignore[no-untyped-def]
+        moves(arm, pose, **how)
+        if pose.position_m[2] >= lifted.position_m[2]:
+            raise RobotError("protective stop")
+
+    monkeypatch.setattr(type(rig.arm), "move_to", fails_up_there)
+    with pytest.raises(RobotError, match="protective stop"):
+        list(repeat(unverified(episode), rig, settings))
+    assert rig.gripper.state().closed
 
 
 def test_times_count_from_the_start_where_the_first_step_is_lost(
