@@ -322,10 +322,11 @@ class LlmPolicy:
 
         Args:
             cloud: The contact.
-            doubt: Whether a word that is in doubt is said with its rival.
+            doubt: Whether a word that is in doubt is said with its rival, and a number that is not
+                well known as its interval.
         """
         felt = self._talker.feel(encoder_input(cloud, self._talker.layout), cloud.force_scale)
-        return caption_reply(self._talker, felt, cloud.sensor, doubt=doubt).text
+        return caption_reply(self._talker, felt, cloud.sensor, doubt=doubt, ranges=doubt).text
 
 
 def numbers_as_read(reading: TouchReading) -> dict[str, str]:

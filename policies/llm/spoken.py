@@ -20,7 +20,7 @@ from cltp.tactile.sensors import SensorSpec
 from cltp.tactile.states import CLASSES, NO_CONTACT_STATE, NUMBERS, ContactState
 from policies.llm.grammar import NOTHING_TOUCHES, SURE, caption_grammar
 from policies.llm.pooled_words import penalties, pooled
-from policies.llm.text import CAPTION_REQUEST, caption_text, said_numbers
+from policies.llm.text import CAPTION_REQUEST, caption_numbers, caption_text
 
 
 class SpokenContact(NamedTuple):
@@ -38,7 +38,12 @@ class SpokenContact(NamedTuple):
 
 
 def caption_reply(
-    talker: Talker, felt: Felt, sensor: SensorSpec | None = None, *, doubt: bool = False
+    talker: Talker,
+    felt: Felt,
+    sensor: SensorSpec | None = None,
+    *,
+    doubt: bool = False,
+    ranges: bool = False,
 ) -> Reply:
     """The model's caption of a contact, pooled with the heads' words, and with their numbers.
 
@@ -47,15 +52,17 @@ def caption_reply(
         felt: The contact as it feels it.
         sensor: The sensor; None for any.
         doubt: Whether a word that is in doubt is said with its rival.
+        ranges: Whether a number that is not well known is said as its interval.
     """
     state = most_probable_state(felt.readings)
-    numbers = said_numbers(state, {}) if state.in_contact else {}
+    ends = _ends(felt) if ranges else {}
+    numbers = caption_numbers(state, ends) if state.in_contact else {}
     say = partial(
         talker.reply_to,
         felt.touch,
         CAPTION_REQUEST,
         grammar=caption_grammar(sensor, numbers=numbers),
-        draft=caption_text(state),
+        draft=caption_text(state, ends=ends),
         doubt_below=None if doubt else SURE,
     )
     reply: Reply = say()
@@ -70,6 +77,12 @@ def caption_reply(
     return replace(reply, slots={**reply.slots, **said})
 
 
+def _ends(felt: Felt) -> dict[str, tuple[float, float]]:
+    """Ends of the interval of each number, by name."""
+    ends = zip(felt.readings.low[0].tolist(), felt.readings.high[0].tolist(), strict=True)
+    return dict(zip(NUMBERS, ends, strict=True))
+
+
 def _is_said_otherwise(own: SlotDecision, agreed: SlotDecision, doubt: bool) -> bool:
     """Whether a word that was said is not the pooled one, or its doubt is another."""
     is_doubtful = doubt and agreed.probability < DOUBT_BELOW
@@ -77,18 +90,20 @@ def _is_said_otherwise(own: SlotDecision, agreed: SlotDecision, doubt: bool) -> 
 
 
 class CaptionSpeaker:
-    """Captions without doubt, as evaluation reads them (``cltp.evaluation.llm_scores.Speaker``).
+    """Captions without doubtful words (``cltp.evaluation.llm_scores.Speaker``).
 
     Args:
         talker: The model.
+        ranges: Whether a number that is not well known is said as its interval.
     """
 
-    def __init__(self, talker: Talker) -> None:
+    def __init__(self, talker: Talker, *, ranges: bool = False) -> None:
         self._talker = talker
+        self._ranges = ranges
 
     def caption(self, points: NDArray[np.float32]) -> str:
         """Describe one contact, points of shape (N, 3) scaled."""
-        return caption_reply(self._talker, self._talker.feel(points)).text
+        return caption_reply(self._talker, self._talker.feel(points), ranges=self._ranges).text
 
 
 def spoken_contact(talker: Talker, felt: Felt, sensor: SensorSpec | None = None) -> SpokenContact:
@@ -105,9 +120,5 @@ def spoken_contact(talker: Talker, felt: Felt, sensor: SensorSpec | None = None)
         return SpokenContact(NO_CONTACT_STATE, {}, {})
     words = {name: slot.chosen for name, slot in said.items()}
     state = state_in_words(felt.readings, words)
-    ends = zip(felt.readings.low[0].tolist(), felt.readings.high[0].tolist(), strict=True)
-    return SpokenContact(
-        state,
-        {name: slot.probability for name, slot in said.items()},
-        dict(zip(NUMBERS, ends, strict=True)),
-    )
+    confidence = {name: slot.probability for name, slot in said.items()}
+    return SpokenContact(state, confidence, _ends(felt))

@@ -35,6 +35,22 @@ DOUBTFUL_RATIO = 1.6
 """High over low end of the narrowest interval that is said."""
 
 
+TOLERANCE_RATIO = 0.1
+TOLERANCE: Mapping[str, float] = {
+    "depth_mm": 0.05,
+    "x_mm": 0.5,
+    "y_mm": 0.5,
+    "area_fraction": 0.0,
+    "force_n": 0.1,
+}
+"""How far a number of a caption may be off, as a fraction of it or, where that is more, in its
+unit. By these ``tacgrasp.training.captions.rating`` counts numbers."""
+
+KNOWN_RATIO = 1.28
+"""Half of a 90 % interval over the tolerance, up to which a caption says a number and not the
+interval: of a normal error four in five are then within the tolerance."""
+
+
 def step_request(force_n: Band, limit_n: float) -> str:
     """What the model is asked in a step, for the target and the limit of its contract [N]."""
     return f"Goal {force_n.low:.2f} - {force_n.high:.2f} N, limit {limit_n:.2f} N. {REQUEST}"
@@ -83,6 +99,24 @@ def said_numbers(state: ContactState, ends: Mapping[str, tuple[float, float]]) -
     }
 
 
+def caption_numbers(state: ContactState, ends: Mapping[str, tuple[float, float]]) -> dict[str, str]:
+    """Every number of a state as captions write it: the interval of what is known less well.
+
+    Places are said without one, as in D_t.
+
+    Args:
+        state: The numbers.
+        ends: Interval of those that have one.
+    """
+    said = said_numbers(state, {})
+    for name, (low, high) in ends.items():
+        tolerance = max(TOLERANCE_RATIO * abs(getattr(state, name)), TOLERANCE[name])
+        if name in DOUBTFUL and high - low > 2 * KNOWN_RATIO * tolerance:
+            low_text, high_text = number_text(name, max(low, 0.0)), number_text(name, high)
+            said[name] = f"{low_text}-{high_text}" if low_text != high_text else low_text
+    return said
+
+
 def contact_text(
     state: ContactState,
     numbers: Mapping[str, str] | None = None,
@@ -112,21 +146,23 @@ def contact_text(
     )
 
 
-def caption_text(state: ContactState, rivals: Mapping[str, str] | None = None) -> str:
+def caption_text(
+    state: ContactState,
+    rivals: Mapping[str, str] | None = None,
+    ends: Mapping[str, tuple[float, float]] | None = None,
+) -> str:
     """The paper's caption with numbers behind it: depth [mm], force [N], area [%], x and y [mm].
 
     Args:
         state: The contact.
         rivals: A second word for those that are in doubt, by dimension.
+        ends: Interval of the numbers that have one; those that are not well known are said so.
     """
-    return f"{caption(state, rivals)} {_caption_numbers(state)}"
-
-
-def _caption_numbers(state: ContactState) -> str:
     if not state.in_contact:
-        return "0.00 mm, 0.00 N."
-    said = said_numbers(state, {})
+        return f"{caption(state, rivals)} 0.00 mm, 0.00 N."
+    said = caption_numbers(state, ends or {})
     return (
+        f"{caption(state, rivals)} "
         f"{said['depth_mm']} mm, {said['force_n']} N, {said['area_fraction']} %, "
         f"x {said['x_mm']}, y {said['y_mm']}{cut_text(state.cut)}."
     )

@@ -9,10 +9,12 @@ from tacgrasp.pretraining.report.pages import PageSection, PageTable
 from tacgrasp.pretraining.report.paper_numbers import PAPER_RATINGS
 from tacgrasp.pretraining.report.store import (
     CAPTIONS,
+    EVERY_NUMBER,
     EXACT_HEIGHTS,
     MOST_FREQUENT,
     SHUFFLED,
     TITLES,
+    WORDS_ALONE,
     Groups,
     Result,
     means,
@@ -20,6 +22,8 @@ from tacgrasp.pretraining.report.store import (
 
 ROWS: Mapping[str, str] = {
     "cltp": "Tac3D-LLM",
+    EVERY_NUMBER: TITLES[EVERY_NUMBER],
+    WORDS_ALONE: TITLES[WORDS_ALONE],
     "point_bert": "PointBERT-LLM",
     "point_mae": "PointMAE-LLM",
     MOST_FREQUENT: TITLES[MOST_FREQUENT],
@@ -28,7 +32,7 @@ ROWS: Mapping[str, str] = {
 }
 """Rows that always stand there, by the method that pre-trained the encoder."""
 
-PERCENTAGES = (*CLASSES, "numbers", "malformed", "questions", "unseen_wordings")
+PERCENTAGES = (*CLASSES, "numbers", "ranges", "malformed", "questions", "unseen_wordings")
 
 
 def caption_section(groups: Groups) -> PageSection:
@@ -44,14 +48,17 @@ def caption_section(groups: Groups) -> PageSection:
         found = [_row(title, paper, same) for same in measured.get(method, ())]
         rows += found or [_row(title, paper, ())]
     head = ["", "rating by rule", "rating by judge", "the paper's, by GPT-4"]
-    head += [name.replace("_", " ") for name in PERCENTAGES]
+    head += ["numbers said", *(name.replace("_", " ") for name in PERCENTAGES)]
     return PageSection(
         title="Table C: captions, rated 1 to 5 (appendix C)",
         text=[
             "Rating by rule: 1 + 4 × the fraction of right ones among the five words and every "
             "number that is said; a number is right within 10 %, or 0.05 mm of depth, 0.5 mm of "
-            "place, 0.1 N of force where that is more; 1 for a text that is no caption. The rest "
-            "is in % right, but for malformed captions; – where nothing was measured."
+            "place, 0.1 N of force where that is more; 1 for a text that is no caption. An "
+            "interval in the place of a number counts neither way: beside it stand the captions "
+            "with every number, and the words alone. Numbers said are the mean of a caption, of "
+            "five; of ranges, the percentage with the truth. The rest is in % right, but for "
+            "malformed captions; – where nothing was measured."
         ],
         table=PageTable(head=[*head, "language model", "contacts"], rows=rows),
         note="Contacts: the split contact_noisy. PointBERT-LLM and PointMAE-LLM are trained by "
@@ -73,6 +80,7 @@ def _row(title: str, paper: float | None, same: Sequence[Result]) -> list[str]:
         _number(values.get("rating"), 2),
         f"{judged} ({', '.join(judges)})" if judges else judged,
         _number(paper, 2),
+        _number(values.get("numbers_said"), 1),
         *(_number(values.get(name), 1) for name in PERCENTAGES),
     ]
     if not same:
@@ -80,7 +88,9 @@ def _row(title: str, paper: float | None, same: Sequence[Result]) -> list[str]:
     return [*cells, same[0].variant or "–", str(same[0].contacts)]
 
 
-_TRIVIAL = (TITLES[MOST_FREQUENT], TITLES[SHUFFLED], TITLES[EXACT_HEIGHTS])
+_TRIVIAL = [
+    TITLES[name] for name in (MOST_FREQUENT, SHUFFLED, EXACT_HEIGHTS, EVERY_NUMBER, WORDS_ALONE)
+]
 
 
 def _number(value: float | None, digits: int) -> str:

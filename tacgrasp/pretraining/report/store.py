@@ -57,11 +57,16 @@ GEOMETRIC_BASELINE = "geometric_baseline"
 MOST_FREQUENT, SHUFFLED, EXACT_HEIGHTS = "most_frequent", "shuffled", "exact_heights"
 """Trivial captions: always the same one, and that of another contact."""
 
+EVERY_NUMBER, WORDS_ALONE = "every_number", "words_alone"
+"""Captions of Tac3D-LLM with every number, however well known, and without any."""
+
 TITLES = {name: method.title for name, method in METHODS.items()} | {
     GEOMETRIC_BASELINE: "geometric baseline",
     MOST_FREQUENT: "most frequent caption",
     SHUFFLED: "another contact's caption",
     EXACT_HEIGHTS: "exact heights, true shape and texture",
+    EVERY_NUMBER: "Tac3D-LLM, every number said",
+    WORDS_ALONE: "Tac3D-LLM, its words alone",
 }
 """Names in tables, in the order of rows: the methods, then the baselines that have no encoder."""
 
@@ -70,6 +75,8 @@ USUAL_VARIANTS = {name: method.preset for name, method in METHODS.items()} | {
     MOST_FREQUENT: "",
     SHUFFLED: "",
     EXACT_HEIGHTS: "",
+    EVERY_NUMBER: "",
+    WORDS_ALONE: "",
 }
 """The variant of each method that stands first, and whose figures ``nested`` takes."""
 

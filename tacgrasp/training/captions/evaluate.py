@@ -7,6 +7,9 @@ Trivial answers are rated on the same contacts:
                        numbers
     another contact's  the true caption of another contact of the sample
 
+So are the model's own captions with every number, however well known, and without any: the rating
+counts what is said, so that a caption may gain by saying less.
+
 So is what an observer with exact heights would say (``cltp.evaluation.exact_observer``), who is
 told shape and texture: it shows what the errors of a unit leave of the numbers and of the other
 words.
@@ -44,14 +47,16 @@ from tacgrasp.lessons.question_scores import answer_all, ask_all, figures
 from tacgrasp.policy_factory import load_llm
 from tacgrasp.pretraining.report.store import (
     CAPTIONS,
+    EVERY_NUMBER,
     EXACT_HEIGHTS,
     MOST_FREQUENT,
     SHUFFLED,
+    WORDS_ALONE,
     Result,
     save,
 )
 from tacgrasp.training.captions.judges import Judge, JudgedPair
-from tacgrasp.training.captions.rating import CaptionRating, rate_caption
+from tacgrasp.training.captions.rating import CaptionRating, rate_caption, words_of
 from tacgrasp.training.other_encoder import method_of
 from tacgrasp.training.question_evaluation import (
     asked_model,
@@ -110,10 +115,12 @@ def rate_captions(run: CaptionRun) -> list[Result]:
     batches = random_batches(data, run.contacts, split.noise, seed=run.seed, layout=talker.layout)
     truths = [state for batch in batches for state in batch.states]
     references = [caption_text(state) for state in truths]
-    speaker = CaptionSpeaker(talker)
+    speaker, plain = CaptionSpeaker(talker, ranges=True), CaptionSpeaker(talker)
     texts: list[str] = []
+    with_numbers: list[str] = []
     for points in (points for batch in batches for points in batch.points):
         texts.append(speaker.caption(points))
+        with_numbers.append(plain.caption(points))
         run.report("captions", len(texts), len(truths), {})
     usual = Result(
         table=CAPTIONS,
@@ -130,6 +137,8 @@ def rate_captions(run: CaptionRun) -> list[Result]:
     frequent = most_frequent_caption(ContactDataset(run.data, split=Split.TRAIN))
     rows = (
         (usual, texts),
+        (replace(usual, method=EVERY_NUMBER, variant=""), with_numbers),
+        (replace(usual, method=WORDS_ALONE, variant=""), [words_of(text) for text in texts]),
         (replace(usual, method=MOST_FREQUENT, variant=""), [frequent] * len(truths)),
         (replace(usual, method=SHUFFLED, variant=""), others(references, run.seed)),
         (replace(usual, method=EXACT_HEIGHTS, variant=""), observed_captions(batches, run.seed)),
@@ -184,7 +193,10 @@ def rated(
     references: Sequence[str],
     judge: Judge | None,
 ) -> dict[str, float | None]:
-    """Mean rating by the rule and by the judge, percent right of each word and of the numbers."""
+    """Mean rating by the rule and by the judge; percent right of each word and of the numbers.
+
+    Beside these: how many numbers a caption says, and percent of its intervals with the truth.
+    """
     ratings = [rate_caption(text, truth) for text, truth in zip(captions, truths, strict=True)]
     values: dict[str, float | None] = {"rating": _mean([each.rating for each in ratings])}
     if judge is not None:
@@ -193,6 +205,8 @@ def rated(
     for name in CLASSES:
         values[name] = _percent(_words(ratings, truths, name))
     values["numbers"] = _percent([right for each in ratings for right in each.numbers.values()])
+    values["numbers_said"] = _mean([len(each.numbers) for each in ratings])
+    values["ranges"] = _percent([inside for each in ratings for inside in each.ranges.values()])
     values["malformed"] = _percent([each.is_malformed for each in ratings])
     return values
 

@@ -13,23 +13,16 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from cltp.errors import TouchError
-from cltp.tactile.states import CLASSES, ContactState
+from cltp.tactile.states import CLASSES, NUMBERS, ContactState
 from cltp.texts.captions import NO_CONTACT, Slots, parse_caption, slots_of
-from tacgrasp.lessons.captions import NUMBER, numbers_by_name
+from policies.llm.text import TOLERANCE, TOLERANCE_RATIO
+from tacgrasp.lessons.captions import NUMBER, numbers_by_name, ranges_by_name
 
 LOWEST, HIGHEST = 1.0, 5.0
 
-RELATIVE = 0.1
-ABSOLUTE: Mapping[str, float] = {
-    "depth_mm": 0.05,
-    "x_mm": 0.5,
-    "y_mm": 0.5,
-    "area_fraction": 0.0,
-    "force_n": 0.1,
-}
-"""How far a number may be off, in its unit; or ``RELATIVE`` of the truth, where that is more."""
-
-_TAIL = re.compile(rf"[\s,.]*(?:(?:[xy] )?{NUMBER}(?: (?:mm|N|%))?[\s,.]*)*(?:cut[\w\s]*\.?)?\s*")
+_TAIL = re.compile(
+    rf"[\s,.]*(?:(?:[xy] )?{NUMBER}(?:-{NUMBER})?(?: (?:mm|N|%))?[\s,.]*)*(?:cut[\w\s]*\.?)?\s*"
+)
 """What may stand behind the sentence of words."""
 
 
@@ -42,11 +35,14 @@ class CaptionRating:
         words: Whether each of the five words is right, where the contact has one; empty for a text
             that is no caption.
         numbers: Whether each number that is said is right; likewise.
+        ranges: Whether each interval that is said in the place of a number holds the truth; it
+            counts neither for nor against the caption.
     """
 
     rating: float
     words: Mapping[str, bool]
     numbers: Mapping[str, bool]
+    ranges: Mapping[str, bool]
 
     @property
     def is_malformed(self) -> bool:
@@ -54,7 +50,7 @@ class CaptionRating:
         return not self.words and not self.numbers
 
 
-MALFORMED = CaptionRating(rating=LOWEST, words={}, numbers={})
+MALFORMED = CaptionRating(rating=LOWEST, words={}, numbers={}, ranges={})
 
 
 def rate_caption(text: str, truth: ContactState) -> CaptionRating:
@@ -72,15 +68,24 @@ def rate_caption(text: str, truth: ContactState) -> CaptionRating:
     if not _TAIL.fullmatch(numbers_text):
         return MALFORMED
     words = _right_words(said, truth)
+    true = {name: float(getattr(truth, name)) if truth.in_contact else 0.0 for name in NUMBERS}
     numbers = {
-        name: _is_near(name, value, float(getattr(truth, name)) if truth.in_contact else 0.0)
+        name: _is_near(name, value, true[name])
         for name, value in numbers_by_name(numbers_text).items()
+    }
+    ranges = {
+        name: low <= true[name] <= high
+        for name, (low, high) in ranges_by_name(numbers_text).items()
     }
     right = [*words.values(), *numbers.values()]
     fraction = sum(right) / len(right)
-    return CaptionRating(
-        rating=LOWEST + (HIGHEST - LOWEST) * fraction, words=words, numbers=numbers
-    )
+    rating = LOWEST + (HIGHEST - LOWEST) * fraction
+    return CaptionRating(rating=rating, words=words, numbers=numbers, ranges=ranges)
+
+
+def words_of(text: str) -> str:
+    """A caption without its numbers."""
+    return f"{_parts(text)[0]}."
 
 
 def _parts(text: str) -> tuple[str, str]:
@@ -104,5 +109,5 @@ def _right_words(said: Slots, truth: ContactState) -> dict[str, bool]:
 
 
 def _is_near(name: str, value: float, truth: float) -> bool:
-    margin = max(RELATIVE * abs(truth), ABSOLUTE[name])
+    margin = max(TOLERANCE_RATIO * abs(truth), TOLERANCE[name])
     return abs(value - truth) <= margin + 1e-9

@@ -135,6 +135,7 @@ def test_captions_of_states_are_in_the_grammar_and_read_back() -> None:
     rng = np.random.default_rng(2)
     for number in range(300):
         state = random_state(rng)
+        state = dataclasses.replace(state, depth_mm=min(state.depth_mm, 3.1))
         missing = [n for n in ("texture", "shape") if number % 5 == 0 and rng.random() < 0.5]
         state = dataclasses.replace(state, **dict.fromkeys(missing))
         parsed = parse_caption_reply(caption_text(state), MINI)
@@ -143,6 +144,16 @@ def test_captions_of_states_are_in_the_grammar_and_read_back() -> None:
         assert parsed.words.get("shape") == state.shape
         assert parsed.numbers["depth_mm"] == pytest.approx((state.depth_mm,) * 2, abs=0.0051)
         assert parsed.cut == state.cut
+        ends = {
+            "depth_mm": (0.7 * state.depth_mm - 0.05, state.depth_mm + 0.13),
+            "x_mm": (-9.0, 9.0),
+            "force_n": (0.95 * state.force_n, 1.05 * state.force_n),
+        }
+        parsed = parse_caption_reply(caption_text(state, ends=ends), MINI)
+        low, high = ends["depth_mm"]
+        assert parsed.numbers["depth_mm"] == pytest.approx((max(low, 0.0), high), abs=0.0051)
+        assert parsed.numbers["x_mm"] == pytest.approx((state.x_mm,) * 2, abs=0.051)
+        assert parsed.numbers["force_n"] == pytest.approx((state.force_n,) * 2, abs=0.0051)
     empty = dataclasses.replace(state, depth=None)
     assert not parse_caption_reply(caption_text(empty)).in_contact
 

@@ -14,7 +14,14 @@ from tacgrasp import policy_factory
 from tacgrasp.__main__ import main
 from tacgrasp.pretraining.report.row_file import RowFile, load_rows
 from tacgrasp.pretraining.report.rows import ROWS, SHIPPED
-from tacgrasp.pretraining.report.store import CAPTIONS, EXACT_HEIGHTS, MOST_FREQUENT, SHUFFLED
+from tacgrasp.pretraining.report.store import (
+    CAPTIONS,
+    EVERY_NUMBER,
+    EXACT_HEIGHTS,
+    MOST_FREQUENT,
+    SHUFFLED,
+    WORDS_ALONE,
+)
 from tacgrasp.training.captions import caption_row
 from tacgrasp.training.captions.caption_row import TEXTS, CaptionLessons
 from tests.fakes.fake_contacts import write_contacts
@@ -106,7 +113,8 @@ def test_the_shipped_weights_are_rated_beside_trivial_captions(
     monkeypatch.setattr(caption_row, "shipped_weights", lambda: weights)
     assert policy_factory.shipped_weights() != weights
     made = row("shipped-llm", "--limit", "3")
-    assert made.scores[CAPTIONS].keys() == {"cltp", MOST_FREQUENT, SHUFFLED, EXACT_HEIGHTS}
+    trivial = {MOST_FREQUENT, SHUFFLED, EXACT_HEIGHTS}
+    assert made.scores[CAPTIONS].keys() == {"cltp", EVERY_NUMBER, WORDS_ALONE, *trivial}
     assert (made.samples, made.learned_from, set(made.minutes)) == (0, None, {"measure"})
     methods = {result.method: result for result in made.results()}
     assert methods[SHUFFLED].variant == ""

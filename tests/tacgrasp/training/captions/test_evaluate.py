@@ -15,9 +15,11 @@ from cltp.texts.captions import caption
 from policies.llm.text import caption_text
 from tacgrasp.__main__ import main
 from tacgrasp.pretraining.report.store import (
+    EVERY_NUMBER,
     EXACT_HEIGHTS,
     MOST_FREQUENT,
     SHUFFLED,
+    WORDS_ALONE,
     load_results,
 )
 from tacgrasp.training.captions.evaluate import (
@@ -87,7 +89,11 @@ def test_captions_are_rated_stored_and_reported(
     argv += ["--results", str(results), "--judge", judge, "--json", str(tmp_path / "f.json")]
     assert main(argv) == 0
     stored = {result.method: result for result in load_results(results)}
-    assert stored.keys() == {"cltp", MOST_FREQUENT, SHUFFLED, EXACT_HEIGHTS}
+    trivial = {MOST_FREQUENT, SHUFFLED, EXACT_HEIGHTS}
+    assert stored.keys() == {"cltp", EVERY_NUMBER, WORDS_ALONE, *trivial}
+    said = {name: stored[name].values["numbers_said"] or 0.0 for name in stored}
+    assert said[WORDS_ALONE] == 0
+    assert said["cltp"] <= said[EVERY_NUMBER]
     for result in stored.values():
         assert result.contacts == 3
         assert result.values["judge"] == 2.0

@@ -6,7 +6,7 @@ import pytest
 
 from cltp.tactile.states import NO_CONTACT_STATE, Position
 from policies.llm.text import caption_text
-from tacgrasp.training.captions.rating import rate_caption
+from tacgrasp.training.captions.rating import rate_caption, words_of
 from tests.fakes.tiny_weights import state
 
 TRUTH = replace(state(4.0, -3.0, 0.6, 2.0), area_fraction=0.12)
@@ -62,6 +62,14 @@ def test_a_number_is_right_within_its_margin(said: str, is_right: bool) -> None:
     rated = rate_caption(f"{WORDS} {said}.", TRUTH)
     assert len(rated.numbers) == 2 + ("%" in said) + 2 * ("x" in said)
     assert sum(not right for right in rated.numbers.values()) == (0 if is_right else 1)
+
+
+def test_an_interval_counts_neither_way_and_is_held_against_the_truth() -> None:
+    rated = rate_caption(f"{WORDS} 0.50-0.70 mm, 2.20-3.00 N, 8.0-14 %, x +4.0, y -3.0.", TRUTH)
+    assert rated.rating == 5.0
+    assert rated.numbers == {"x_mm": True, "y_mm": True}
+    assert rated.ranges == {"depth_mm": True, "force_n": False, "area_fraction": True}
+    assert words_of(f"{WORDS} {NUMBERS}") == WORDS
 
 
 @pytest.mark.parametrize(
