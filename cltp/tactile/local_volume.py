@@ -81,6 +81,10 @@ WIDE_SLOPE = 0.035
 choice: a light contact on a pad that is tilted or broadly raised has the slope of these around it,
 0.028 along either axis in the same drift."""
 
+BULGE = 0.4
+"""Height of the gel that bulges around a wide contact over the contact's own. Source: 0.36 around
+flat punches of 13 to 21 mm, 0.3 mm deep."""
+
 _DEEPEST_CELLS = 3
 
 
@@ -104,11 +108,18 @@ def local_contact(cells_mm: FloatArray, sensor: SensorSpec) -> LocalContact:
         cells_mm: Shape (n, n), mean indentation in equal cells of the sensing area [mm].
         sensor: The sensor.
     """
+    is_raised = _is_mostly_raised(cells_mm, sensor)
+    is_strong = _responses(cells_mm, sensor, WIDE_SCALE_MM).max() >= WIDE_RESPONSE_MM
+    local = _local_contact(cells_mm, sensor, is_wide=is_raised and is_strong)
+    if local.volume_mm3 == 0 and is_raised:  # the median is on its flat top
+        return _local_contact(cells_mm, sensor, is_wide=True)
+    return local
+
+
+def _local_contact(cells_mm: FloatArray, sensor: SensorSpec, *, is_wide: bool) -> LocalContact:
+    """The contact over its surroundings, or over the cloud's own zero where it is wide."""
     near = _near_strongest(cells_mm, sensor)
     noise_mm = NOISE_FACTOR * white_noise_mm(cells_mm)
-    is_wide = _responses(cells_mm, sensor, WIDE_SCALE_MM).max() >= WIDE_RESPONSE_MM and (
-        _is_mostly_raised(cells_mm, sensor)
-    )
     if is_wide:  # near the strongest response of a flat top is any of its places
         near = np.ones_like(near)
     background: FloatArray | float = 0.0 if is_wide else float(np.median(cells_mm))
@@ -157,18 +168,30 @@ def _region_of(cell: int, mask: BoolArray) -> BoolArray:
 
 
 def _is_mostly_raised(cells_mm: FloatArray, sensor: SensorSpec) -> bool:
-    """Whether the most of the pad stands out of the cloud's own zero, and not all of it."""
-    drift_mm = SPREADS.get(sensor.name, MINI_SPREAD).drift_mm
-    most_mm = max(ZERO_DRIFTS * drift_mm, LEAST_ZERO_MM)
-    low_mm, median_mm = np.quantile(cells_mm, (LOW_PART, 0.5))
-    if median_mm <= most_mm or abs(low_mm) > most_mm:
+    """Whether the most of the pad stands out of the cloud's own zero, with an edge."""
+    if not _keeps_zero(cells_mm, sensor):
         return False
+    most_mm = _most_zero_mm(sensor)
     smooth = smoothed(cells_mm, sensor, SLOPE_SCALE_MM)
     rows, columns = cells_mm.shape
     down, across = np.gradient(smooth, sensor.height_mm / rows, sensor.width_mm / columns)
     stands = smooth > most_mm
     edge = stands & ~ndimage.binary_erosion(stands, border_value=1)
     return bool(edge.any() and np.median(np.hypot(down, across)[edge]) >= WIDE_SLOPE)
+
+
+def _keeps_zero(cells_mm: FloatArray, sensor: SensorSpec) -> bool:
+    """Whether the median lies further above zero than drift, and a part of the pad does not."""
+    low_mm, median_mm = np.quantile(cells_mm, (LOW_PART, 0.5))
+    most_mm = _most_zero_mm(sensor)
+    least_mm = -max(most_mm, BULGE * median_mm)
+    return bool(median_mm > most_mm and least_mm <= low_mm <= most_mm)
+
+
+def _most_zero_mm(sensor: SensorSpec) -> float:
+    """How far drift may take the zero [mm]."""
+    drift_mm = SPREADS.get(sensor.name, MINI_SPREAD).drift_mm
+    return max(ZERO_DRIFTS * drift_mm, LEAST_ZERO_MM)
 
 
 def white_noise_mm(heights_mm: FloatArray) -> float:

@@ -23,7 +23,7 @@ from cltp.llm.constrained.grammar import (
     Part,
     TextChoice,
     Verbatim,
-    allows_number,
+    nearest_number,
 )
 from cltp.tactile.sensors import SENSORS, SensorSpec
 from cltp.tactile.states import CLASSES, Side
@@ -112,7 +112,7 @@ def step_grammar(
         barred: Actions that must not be named, such as '<move_up>' or '<none>'.
         nouns: Which of ``NOUNS`` are said.
         numbers: Texts of numbers of a contact by ``cltp.tactile.states.NUMBERS``, which are said as
-            they are where the sensor's range has them; all others are the model's own.
+            they are, or as the nearest of the sensor's range; all others are the model's own.
 
     Raises:
         PolicyError: Every action is barred.
@@ -135,11 +135,13 @@ def step_grammar(
 
 
 def _with_numbers(parts: Grammar, numbers: Mapping[str, str]) -> Grammar:
-    """Parts with a literal in the place of each number that is given and lies in its range."""
+    """Parts with a literal in the place of each number that is given."""
     said: list[Part] = []
     for part in parts:
-        text = numbers.get(part.name) if isinstance(part, NumberRange) else None
-        if isinstance(part, NumberRange) and text is not None and allows_number(part, text):
+        text = None
+        if isinstance(part, NumberRange) and part.name in numbers:
+            text = nearest_number(part, numbers[part.name])
+        if isinstance(part, NumberRange) and text is not None:
             said += [Verbatim(f" {text}"), Verbatim(part.after)]
         else:
             said.append(part)

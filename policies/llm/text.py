@@ -112,7 +112,7 @@ def caption_numbers(state: ContactState, ends: Mapping[str, tuple[float, float]]
     for name, (low, high) in ends.items():
         tolerance = max(TOLERANCE_RATIO * abs(getattr(state, name)), TOLERANCE[name])
         if name in DOUBTFUL and high - low > 2 * KNOWN_RATIO * tolerance:
-            low_text, high_text = number_text(name, max(low, 0.0)), number_text(name, high)
+            low_text, high_text = number_text(name, low), number_text(name, high)
             said[name] = f"{low_text}-{high_text}" if low_text != high_text else low_text
     return said
 

@@ -27,7 +27,8 @@ if TYPE_CHECKING:
     from primitives.contract import Contract
 
 NO_CONTACT = "nothing touches the gel"
-"""Less deep than ``unseen_mm`` a press may be drift, which a single cloud can't tell from it."""
+"""Less deep than ``unseen_mm`` a press may be drift, which a single cloud can't tell from it, and a
+wide, flat press shows no slope to be known by."""
 
 NO_INTERVALS = "no_intervals"
 """Flag of numbers that were measured directly, without weights."""
@@ -82,7 +83,7 @@ def describe(cloud: TactileCloud) -> list[str]:
     if is_lowered(cloud):
         lines.append(f"zero      don't act on this: {lowered_text(cloud)}")
     if state.depth is None or state.position is None or state.area is None:
-        return [*lines, f"contact   none: {NO_CONTACT} deeper than {unseen_mm(cloud):.2f} mm"]
+        return [*lines, f"contact   {_unmeasured(cloud)}"]
     return [
         *lines,
         f"position  {state.position} ({state.x_mm:+.2f}, {state.y_mm:+.2f} mm)",
@@ -95,6 +96,18 @@ def describe(cloud: TactileCloud) -> list[str]:
     ]
 
 
+def _unmeasured(cloud: TactileCloud) -> str:
+    """Why there are no numbers of a contact."""
+    if is_touched(cloud):
+        return "something presses the most of the pad; it can't be measured directly"
+    if is_lowered(cloud):
+        return "unknown: nothing stands out, but the zero is lost"
+    return (
+        f"none: {NO_CONTACT} deeper than {unseen_mm(cloud):.2f} mm "
+        "(a wide and flat press shows less, and may be deeper)"
+    )
+
+
 def describe_in_numbers(cloud: TactileCloud, reader: TouchReader | None) -> dict[str, Any]:
     """The same for programs: words, numbers with their intervals, and warnings.
 
@@ -105,7 +118,8 @@ def describe_in_numbers(cloud: TactileCloud, reader: TouchReader | None) -> dict
     Raises:
         TouchError: The cloud can't be measured, or its z has the wrong sign.
 
-    Of a pad that is raised all over, ``contact`` is None, and nothing is read but the flag.
+    Of a pad that is raised all over, and of one that has lost its zero where nothing stands out,
+    ``contact`` is None, and nothing is read but the flag.
     """
     if is_raised(cloud):
         return _in_numbers(cloud, None, NO_CONTACT_STATE, flags=[RAISED])
@@ -128,9 +142,8 @@ def describe_in_numbers(cloud: TactileCloud, reader: TouchReader | None) -> dict
             name: {"value": getattr(state, name), "lo": None, "hi": None} for name in NUMBERS
         }
     flags += cloud_flags(cloud) if is_in_contact else zero_flags(cloud)
-    return _in_numbers(
-        cloud, is_in_contact, state, numbers=numbers, confidence=confidence, flags=flags
-    )
+    contact = None if LOWERED in flags and not is_in_contact else is_in_contact
+    return _in_numbers(cloud, contact, state, numbers=numbers, confidence=confidence, flags=flags)
 
 
 def _in_numbers(
@@ -144,7 +157,9 @@ def _in_numbers(
 ) -> dict[str, Any]:
     """The keys of ``describe_in_numbers``."""
     words = {name: getattr(state, name) for name in DIMENSIONS}
-    said = raised_text(cloud) + "." if contact is None else caption(state)
+    said = caption(state)
+    if contact is None:
+        said = f"{lowered_text(cloud) if LOWERED in flags else raised_text(cloud)}."
     return {
         "sensor": cloud.sensor.name,
         "points": len(cloud.points_mm),

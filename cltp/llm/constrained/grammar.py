@@ -16,6 +16,7 @@ from typing import NamedTuple, TypeAlias
 
 _NUMBER = re.compile(r"[+-]?\d+(?:\.\d+)?")
 _UNSIGNED = re.compile(r"\d+(?:\.\d+)?")
+_INTERVAL = re.compile(rf"({_NUMBER.pattern})(?:-({_UNSIGNED.pattern}))?")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -171,3 +172,20 @@ def _number_ways(part: NumberRange, text: str, at: int) -> Iterator[tuple[Segmen
 def allows_number(part: NumberRange, text: str) -> bool:
     """Whether a text, such as '0.31' or '0.25-0.41', may be said in the place of a number."""
     return any(segment.value == text for segment, _ in _number_ways(part, f" {text}", 0))
+
+
+def nearest_number(part: NumberRange, text: str) -> str | None:
+    """The number or interval nearest to a text that may be said; None where that is none."""
+    if allows_number(part, text):
+        return text
+    ends = _INTERVAL.fullmatch(text)
+    if ends is None or float(ends[2] or ends[1]) < float(ends[1]):
+        return None
+    low, high = (_nearest(part, end) for end in (ends[1], ends[2] or ends[1]))
+    return f"{low}-{high}" if part.interval and low != high else low
+
+
+def _nearest(part: NumberRange, text: str) -> str:
+    if part.place(text) is not None:
+        return text
+    return min(part.texts, key=lambda each: abs(float(each) - float(text)))

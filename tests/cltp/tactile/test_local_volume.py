@@ -104,6 +104,14 @@ def test_a_flat_face_that_covers_the_most_of_the_pad_is_measured_from_the_clouds
     assert volume == pytest.approx(0.8 * 0.5 * (face > 0).mean() * SENSOR.area_mm2, rel=0.01)
 
 
+@pytest.mark.parametrize("width_mm", [14.5, 16, 17.5])
+def test_the_gel_that_bulges_around_a_wide_punch_hides_none_of_it(width_mm):
+    beside = np.hypot(X, Y) > width_mm / 2  # what is left of the pad is lower by a third of it
+    cells = np.where(beside, -0.1, 0.3)
+    volume = 0.3 * 0.8 * np.mean(~beside) * SENSOR.area_mm2
+    assert volume_mm3(cells, SENSOR) == pytest.approx(volume, rel=0.02)
+
+
 def test_broad_drift_above_zero_is_no_contact_that_covers_the_pad():
     drift = 0.1 + 0.012 * X  # most of the pad lies above 0.08 mm, and one side at 0
     assert volume_mm3(bump() + drift, SENSOR) == pytest.approx(VOLUME, rel=0.06)
