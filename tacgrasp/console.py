@@ -174,6 +174,8 @@ def verbose_lines(
 
 def felt_parts(record: StepRecord, state: ContactState) -> list[str]:
     """What is felt, the most important first: force with its interval, depth, place, area, cut."""
+    if not state.in_contact and record.in_contact is None:
+        return ["nothing stands out that could not be drift, in a frame alone"]
     if not state.in_contact:
         return ["nothing touches the gel"]
     scale = record.cloud.force_scale

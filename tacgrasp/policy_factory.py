@@ -218,7 +218,7 @@ def _of_plugin(name: str, config: RunConfig) -> Policy:
         policy: Policy = make(config)
     except (UsageError, TouchError, PolicyError):
         raise
-    except Exception as error:  # of foreign code: nothing has moved yet
+    except (Exception, SystemExit) as error:  # of foreign code: nothing has moved yet
         raise UsageError(
             f"the plugin {title} made no policy: {type(error).__name__}: {error}"
         ) from error
@@ -273,7 +273,7 @@ class PluginPolicy:
             yield
         except (PolicyError, TouchError, LimitError, RobotError, EndOfEpisode):
             raise
-        except Exception as error:  # of foreign code, which is no bug of ours
+        except (Exception, SystemExit) as error:  # of foreign code, which is no bug of ours
             log.debug("%s of the plugin %s raised", function, self._title, exc_info=True)
             reason = " ".join(f"{type(error).__name__}: {error}".split())
             raise PolicyError(
@@ -282,7 +282,7 @@ class PluginPolicy:
             ) from error
 
 
-def _place_of(error: Exception) -> str:
+def _place_of(error: BaseException) -> str:
     """File and line of foreign code that raised."""
     last = traceback.extract_tb(error.__traceback__)[-1]
     return f" ({Path(last.filename).name}, line {last.lineno})"

@@ -75,11 +75,14 @@ def main(argv: Sequence[str]) -> int:
     contract = contract_of(config, sources)
     if flags.print_config:
         _print_config(config, sources, contract)
-        return 0
+        return 2 if contract.refused else 0
     check_devices(config, allow_uncalibrated_force=flags.allow_uncalibrated_force)
     writable(flags.events, ".json", ".jsonl")
     with EventFile(flags.events) as events:
-        outcome = _run(config, contract, events, flags)
+        try:
+            outcome = _run(config, contract, events, flags)
+        except SystemExit as error:  # of a plugin's device: no end of ours, and no success
+            raise RuntimeError("a device or policy asked Python to exit") from error
     return 0 if outcome.completed else EXIT_CODES.get(outcome.reason, 1)
 
 

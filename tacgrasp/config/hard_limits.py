@@ -1,4 +1,4 @@
-"""Hard limits of a rig's file: environment and flags may narrow them, never widen them.
+"""Hard limits of a rig's file: task, environment and flags may narrow them, never widen them.
 
 Not here: checking commands against the limits (``primitives.limits``).
 """

@@ -1,5 +1,7 @@
 """Fill the configuration: defaults < task file < rig file < environment (< flags, ``cli.run``).
 
+A limit of the rig's file may be narrowed by all others, the task's file too, and widened by none.
+
 Not here: the fields and their ranges (``tacgrasp.config.schema``).
 """
 
@@ -18,7 +20,7 @@ from tacgrasp.base.plugins import load_plugin, names_with, plugins
 from tacgrasp.base.settings import SettingsBase
 from tacgrasp.base.strict_yaml import YamlError, YamlSyntaxError, read_yaml, read_yaml_file
 from tacgrasp.config.errors import explain, path_of
-from tacgrasp.config.hard_limits import HardLimits
+from tacgrasp.config.hard_limits import LIMITS, HardLimits
 from tacgrasp.config.hardware import resolve_paths
 from tacgrasp.config.schema import ArmConfig, GripperConfig, RunConfig
 
@@ -68,13 +70,15 @@ def load_with_limits(
         merged[kind] = flag or from_env or default
         if from_env and not flag:
             sources[kind] = f"environment variable {variable}"
-    folder = Path()
-    for kind in ("task", "rig"):
-        source, fields, folder = _read_layer(kind, merged[kind])
-        if kind == "task" and "hardware" in fields:
-            raise UsageError(f"{source}: hardware belongs into a rig's file")
-        _merge(merged, fields, source, sources)
+    task_source, of_task, _ = _read_layer("task", merged["task"])
+    if "hardware" in of_task:
+        raise UsageError(f"{task_source}: hardware belongs into a rig's file")
+    may_narrow = _limits_in(of_task)
+    _merge(merged, of_task, task_source, sources)
+    source, of_rig, folder = _read_layer("rig", merged["rig"])
+    _merge(merged, of_rig, source, sources)
     hard = _hard_limits(merged)
+    _merge(merged, may_narrow, task_source, sources)
     for variable, value in sorted(variables.items()):
         layer: Any = value  # a sentence that is no YAML is a text
         try:
@@ -247,6 +251,16 @@ def _hard_limits(merged: dict[str, Any]) -> HardLimits:
     except ValidationError:
         _complete(merged)
         raise
+
+
+def _limits_in(fields: Mapping[str, Any]) -> dict[str, Any]:
+    """The fields of a file that are limits."""
+    found: dict[str, Any] = {}
+    for section, field in (path.split(".") for path in LIMITS):
+        held = fields.get(section)
+        if isinstance(held, dict) and held.get(field) is not None:
+            found.setdefault(section, {})[field] = held[field]
+    return found
 
 
 def _overlay(below: dict[str, Any], above: dict[str, Any]) -> None:

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import fcntl
 import os
+import shutil
 from pathlib import Path
 
 from mcap.records import Channel, McapRecord, Message, Metadata, Schema
@@ -52,6 +53,7 @@ def recover(path: Path, out: Path | None = None) -> str:
     try:
         with replacing(target) as part:
             _write(part, scan, path.name, missing)
+            shutil.copymode(path, part)
             original = path if out is not None else _set_aside(path)
         sync_directory(target.parent)
     except OSError as error:

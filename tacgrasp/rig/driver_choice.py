@@ -150,7 +150,7 @@ def connect_plugin(group: str, settings: PluginSettings) -> Any:
         return plugin_driver(group, settings.kind).connect(settings)
     except (RobotError, TouchError):
         raise
-    except Exception as error:  # of foreign code: nothing has moved yet
+    except (Exception, SystemExit) as error:  # of foreign code: nothing has moved yet
         raise RobotError(
             f"the plugin's driver {settings.kind} (tacgrasp.{group}) failed to connect: "
             f"{type(error).__name__}: {error}; mend the plugin, or name another kind in the rig's "
@@ -163,7 +163,7 @@ def check_plugin(group: str, settings: PluginSettings) -> Sequence[Finding]:
     device = group.removesuffix("s")
     try:
         return plugin_driver(group, settings.kind).check(settings)
-    except Exception as error:  # of foreign code: a check that raises has failed
+    except (Exception, SystemExit) as error:  # of foreign code: a check that raises has failed
         detail = f"{type(error).__name__}: {error}"
         advice = f"mend the plugin's check of {settings.kind}"
         return [finding(device, "plugin", False, " ".join(detail.split()), advice)]

@@ -8,6 +8,7 @@ gone back in. Not here: the full record of an episode (``tacgrasp.episodes``).
 
 from __future__ import annotations
 
+import fcntl
 import json
 import os
 from contextlib import suppress
@@ -43,11 +44,14 @@ class EventFile:
         """Open the file.
 
         Raises:
-            UsageError: It can't be written.
+            UsageError: It can't be written, or another run writes to it.
         """
         if self._path is not None:
             try:
-                self._file = FileIO(self._path, "wb")
+                self._file = FileIO(os.open(self._path, os.O_WRONLY | os.O_CREAT, 0o666), "wb")
+                if self._path.is_file():
+                    self._lock()
+                    self._file.truncate(0)
             except OSError as error:
                 raise UsageError(f"--json {self._path} can't be written: {error}") from None
             is_json = self._path.resolve().suffix.lower() == ".json"
@@ -62,6 +66,18 @@ class EventFile:
     ) -> None:
         if self._file is not None:
             self._file.close()
+
+    def _lock(self) -> None:
+        assert self._file is not None
+        try:
+            fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            self._file.close()
+            raise UsageError(
+                f"--json {self._path} is being written by another run; name another file"
+            ) from None
+        except OSError:
+            return  # a disk without locks: another run can't be detected
 
     def contract(self, contract: Contract) -> None:
         """The contract, before anything moves."""

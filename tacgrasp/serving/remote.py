@@ -65,6 +65,7 @@ class RemotePolicy:
             raise UsageError(f"--policy-url must be like ws://127.0.0.1:8000, got {url!r}")
         self._url, self._timeout_s, self._key, self._clock = url, timeout_s, key, clock
         self._connection: ClientConnection | None = None
+        self._open = contextlib.ExitStack()
         self._is_first = True
 
     def connect(self) -> None:
@@ -75,14 +76,16 @@ class RemotePolicy:
         """
         headers = {"Authorization": f"Api-Key {self._key}"} if self._key else None
         try:
-            self._connection = connect(
-                self._url,
-                additional_headers=headers,
-                compression=None,
-                open_timeout=self._timeout_s,
-                close_timeout=0.1,
-                max_size=MAX_MESSAGE_BYTES,
-                proxy=None,
+            self._connection = self._open.enter_context(
+                connect(
+                    self._url,
+                    additional_headers=headers,
+                    compression=None,
+                    open_timeout=self._timeout_s,
+                    close_timeout=0.1,
+                    max_size=MAX_MESSAGE_BYTES,
+                    proxy=None,
+                )
             )
             _bound_sending(self._connection.socket, self._timeout_s)
             metadata = self._received()
@@ -136,7 +139,7 @@ class RemotePolicy:
             with contextlib.suppress(OSError):  # no closing words to who may not listen
                 connection.socket.shutdown(socket.SHUT_RDWR)
             with contextlib.suppress(OSError, WebSocketException):
-                connection.close()
+                self._open.close()
 
     def _received(self) -> dict[str, Any]:
         assert self._connection is not None

@@ -238,6 +238,7 @@ def thing(config): return Theirs()
     ("start", "decide", "expected"),
     [
         ("pass", "1 / 0", "its decide raised ZeroDivisionError: division by zero (their_module.py"),
+        ("pass", "raise SystemExit(0)", "its decide raised SystemExit: 0 (their_module.py"),
         ("pass", "return None", "the policy replied None; expected a Decision"),
         ("{}['x']", "pass", "its start raised KeyError: 'x'"),
     ],

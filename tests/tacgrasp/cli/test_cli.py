@@ -395,6 +395,22 @@ def test_print_config_says_where_each_value_came_from(capsys: Capture) -> None:
     assert lines["loop.max_asks"].endswith("[default]")
 
 
+def test_print_config_of_a_refused_instruction_ends_as_the_run_would(capsys: Capture) -> None:
+    assert main(["run", "--instruction", "Hold it at 70 N.", "--print-config"]) == 2
+    assert "refused: " in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("encoding", ["ascii", "latin-1"])
+def test_a_display_that_lacks_a_sign_ends_no_run(encoding: str, tmp_path: Path) -> None:
+    command = [sys.executable, "-m", "tacgrasp", "run", "--policy", "rules", "--seed", "6"]
+    environment = {**os.environ, "PYTHONIOENCODING": encoding}
+    done = subprocess.run(
+        [*command, "--record", str(tmp_path)], cwd=ROOT, env=environment, capture_output=True
+    )
+    assert (done.returncode, done.stderr) == (0, b"")
+    assert b"Grasp completed successfully" in done.stdout
+
+
 RIGS = (*names("rig"), str(ROOT / "docs/example_rig.yaml"))
 
 

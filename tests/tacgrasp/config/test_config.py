@@ -51,12 +51,13 @@ def test_flags_go_over_environment_over_rig_over_task_over_defaults(
     argv = ["--task", str(task), "--rig", str(rig), "--gripper.max-force-n", "6"]
     config, sources, _ = configure(argv)
     assert config.loop.max_steps == 7
-    assert config.arm.max_travel_mm == 22
+    assert config.arm.max_travel_mm == 11  # a limit may be narrowed by the task too
     assert config.arm.max_step_mm == 1.5
     assert config.gripper.max_force_n == 6
     assert sources["loop.max_asks"] == "default"
     assert sources["loop.max_steps"] == str(task)
-    assert sources["arm.max_travel_mm"] == str(rig)
+    assert sources["arm.max_speed_m_s"] == str(rig)
+    assert sources["arm.max_travel_mm"] == str(task)
     assert sources["arm.max_step_mm"] == "environment variable TACGRASP_ARM__MAX_STEP_MM"
     assert sources["gripper.max_force_n"] == "flag --gripper.max-force-n"
 
@@ -231,6 +232,17 @@ def test_flags_and_environment_can_not_widen_a_limit_of_the_rigs_file(
     message = usage_error(argv)
     assert re.search(expected, message), message
     assert "widened only in the rig's file (sim)" in message
+
+
+def test_a_task_may_narrow_the_limits_of_the_rigs_file_and_not_widen_them(tmp_path: Path) -> None:
+    task = tmp_path / "t.yaml"
+    task.write_text(MINIMAL + "arm: {max_step_mm: 3}\ngripper: {max_force_n: 2}\n")
+    config, sources, _ = configure(["--task", str(task)])
+    assert (config.arm.max_step_mm, config.gripper.max_force_n) == (3.0, 2.0)
+    assert sources["gripper.max_force_n"] == str(task)
+    task.write_text(MINIMAL + "gripper: {max_force_n: 200}\n")
+    message = usage_error(["--task", str(task)])
+    assert "gripper.max_force_n must be at most the rig's hard limit 12, got 200" in message
 
 
 def test_a_limit_that_the_rigs_file_leaves_to_its_default_can_not_be_widened_either(

@@ -67,6 +67,16 @@ def test_a_file_cut_anywhere_still_gives_every_whole_step(
         assert_prefix(episode.steps)
 
 
+def test_a_recovered_file_is_no_more_open_to_others_than_it_was(
+    recorded: Recorded, tmp_path: Path
+) -> None:
+    path = tmp_path / "e.mcap"
+    path.write_bytes(recorded[0][:-100])
+    path.chmod(0o600)
+    recover(path)
+    assert path.stat().st_mode & 0o777 == 0o600
+
+
 def test_a_file_cut_before_its_header_says_that_nothing_can_be_recovered(
     recorded: Recorded, tmp_path: Path
 ) -> None:

@@ -56,6 +56,15 @@ def test_a_pipe_gets_an_object_a_line_whatever_its_name(tmp_path):
     assert [json.loads(line)["event"] for line in received] == ["contract", "contract"]
 
 
+def test_a_file_that_another_run_writes_to_is_refused(tmp_path):
+    path = tmp_path / "run.json"
+    with EventFile(path) as events:
+        events.contract(CONTRACT)
+        with pytest.raises(UsageError, match="is being written by another run"), EventFile(path):
+            pass
+    assert [event["event"] for event in json.loads(path.read_text("utf-8"))] == ["contract"]
+
+
 def test_a_file_on_a_full_disk_ends_there_and_raises_nothing(tmp_path):
     path = tmp_path / "full.jsonl"
     path.symlink_to("/dev/full")
