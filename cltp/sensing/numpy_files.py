@@ -62,7 +62,8 @@ def read_npy(data: bytes) -> NDArray[np.float64]:
 def read_npz(data: bytes) -> NDArray[np.float64]:
     """The one array of a .npz file, or the first named ``points_mm``, ``seen_mm``, ``height_mm``.
 
-    ``seen_mm`` are heights as a sensor reports them, beside the true ones (``tacgrasp simulate``).
+    ``points_mm`` and ``seen_mm`` are what a sensor reports, beside the true heights
+    (``tacgrasp simulate``).
 
     Raises:
         TouchError: Not a whole .npz file, none or several arrays, an encrypted one, points that are
@@ -98,12 +99,10 @@ def _member(archive: zipfile.ZipFile) -> bytes:
     """The bytes of the one array, as far as ``MAX_NUMBERS`` of them can need."""
     entries = {info.filename.removesuffix(".npy"): info for info in archive.infolist()}
     names = list(entries)
-    points = [n for n in names if n == "points_mm"]
-    heights = [n for n in ("seen_mm", "height_mm") if n in names][:1]
-    candidates = [*points, *heights] or names
+    candidates = [n for n in ("points_mm", "seen_mm", "height_mm") if n in names][:1] or names
     if len(candidates) != 1:
         raise TouchError(
-            "expected one array, or one named points_mm or height_mm; the file has "
+            "expected one array, or one named points_mm, seen_mm or height_mm; the file has "
             f"{', '.join(names[:10]) or 'none'}"
         )
     info = entries[candidates[0]]

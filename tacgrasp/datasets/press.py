@@ -289,6 +289,8 @@ def _write(out: Path, request: PressRequest, result: PressResult) -> None:
     }
     if result.seen_mm is not None:
         values["seen_mm"] = result.seen_mm
+    elif result.sensor.markers is not None:  # such a sensor sees no heights between its markers
+        values["points_mm"] = result.cloud.points_mm
     try:
         with replacing(out) as part, part.open("wb") as file:
             np.savez_compressed(file, allow_pickle=False, **values)

@@ -91,7 +91,8 @@ class PressRequest:
 
     The file of --out holds height_mm (H, W), positive into the gel, row 0 at the top, over the
     whole sensing area; pressure_kpa (H, W); force_n; what the sensor would report as cloud_mm
-    (N, 3); and with noise its heights seen_mm (H, W).
+    (N, 3); and with noise its heights seen_mm (H, W), or of a sensor that tracks markers its
+    points_mm (N, 3), which are then what other commands read.
 
     Attributes:
         object: ball:DIAMETER, cylinder:DIAMETER (lying along x) or flat:EDGE (square), in mm; or

@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
+from cltp.sensing.touch_files import read_cloud
 from cltp.tactile.cloud import grid_axes_mm
-from cltp.tactile.sensors import SENSORS
+from cltp.tactile.sensors import SENSORS, sensor_named
 from tacgrasp.__main__ import main
 from tacgrasp.datasets.requests import PressRequest
 
@@ -95,6 +96,9 @@ def test_a_gelstereo_reports_its_markers(tmp_path):
         assert data["height_mm"].shape == (80, 80)
         assert 480 < len(data["cloud_mm"]) < 529
         assert "seen_mm" not in data
+        reported = data["points_mm"]
+    read = read_cloud(file, sensor_named("gelstereo"))  # what it reports, not the true heights
+    np.testing.assert_array_equal(read.points_mm, reported)
 
 
 def test_an_object_of_the_catalogue_is_laid_as_the_seed_draws(tmp_path, capsys):

@@ -11,23 +11,26 @@ import torch
 from cltp.encoder.encoder import PRESETS, TactileEncoder
 from cltp.encoder.heads import StateHeads, transformed
 from cltp.encoder.heads_output import HeadsOutput
-from cltp.encoder.reader import Flag, TouchReader, TouchReading, fine_noise_mm, reading_of
+from cltp.encoder.reader import Flag, Number, TouchReader, TouchReading, fine_noise_mm, reading_of
 from cltp.encoder.readings import readings_of
 from cltp.errors import TouchError
 from cltp.tactile.cells import resampled
 from cltp.tactile.cloud import TactileCloud, cloud_of_pixels
 from cltp.tactile.force_scale import ForceScale
+from cltp.tactile.measure import contact_state
 from cltp.tactile.point_layout import GRID
 from cltp.tactile.sensors import SENSORS
 from cltp.tactile.states import CLASSES, NUMBERS
 from tacgrasp.__main__ import main
 from tacgrasp.playback.describe import (
+    FORCES_DIFFER,
     LOWERED,
     NO_INTERVALS,
     RAISED,
     UNCALIBRATED_FORCE,
     describe,
     describe_in_numbers,
+    differing,
 )
 from tests.fakes.tiny_weights import bump
 
@@ -60,7 +63,8 @@ def test_every_number_has_an_interval_that_holds_it(reader: TouchReader) -> None
         assert number["lo"] <= number["value"] <= number["hi"]
     assert told["numbers"]["depth_mm"]["lo"] >= 0
     assert set(told["confidence"]) == {"shape", "texture", "depth", "position", "area"}
-    assert told["flags"] == [UNCALIBRATED_FORCE]
+    # an untrained reader's force is another one than that of the gel's shape
+    assert told["flags"] == [FORCES_DIFFER, UNCALIBRATED_FORCE]
 
 
 def test_a_force_without_a_calibration_is_less_certain(reader: TouchReader) -> None:
@@ -161,6 +165,23 @@ def test_an_untouched_gel_has_no_numbers(reader: TouchReader) -> None:
     told = describe_in_numbers(cloud(depth_mm=0.0), reader)
     assert (told["contact"], told["numbers"], told["flags"]) == (False, {}, [])
     assert told["state"]["shape"] is None
+
+
+@pytest.mark.parametrize(
+    ("measured_n", "is_told"),
+    [(0.22, True), (0.9, False), (4.0, False), (9.3, False), (9.6, True)],
+)
+def test_forces_that_exclude_each_other_are_told(measured_n: float, is_told: bool) -> None:
+    measured = dataclasses.replace(contact_state(cloud()), force_n=measured_n)
+    said = differing(measured, {"force_n": Number(3.4, 1.8, 5.95)})
+    assert said == (f"{measured_n:.2f} N by the gel's shape, 1.80-5.95 N by the model" * is_told)
+
+
+def test_a_wide_contact_that_is_not_measured_is_not_denied() -> None:
+    face = np.full((60, 80), 0.1)
+    face[:, :4] = face[:, -4:] = 0.013
+    lines = describe(cloud_of_pixels(face, MINI))
+    assert not any("nothing touches" in line for line in lines)
 
 
 def test_without_intervals_the_measured_numbers_say_so() -> None:
