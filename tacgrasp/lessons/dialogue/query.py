@@ -15,6 +15,7 @@
     why step.                           the reason of the advice; 'why both' with the advice,
                                         'why force' the force behind an answer, 'why felt' all
                                         numbers behind it
+    because mass, holds.                the facts behind an answer, other ones; no model writes it
     calculate 0.5 * limit_n in N.       a number by an expression; 'in 1' a ratio
     calculate force_n > 0.5 * limit_n.  yes or no, or a choice, so; no model writes these
     describe.
@@ -49,6 +50,7 @@ from tacgrasp.lessons.dialogue.conditions import (
     taken,
 )
 from tacgrasp.lessons.dialogue.meaning import (
+    FACTS,
     MASS_UNITS,
     Amount,
     Calculated,
@@ -339,7 +341,11 @@ def _part(meaning: Meaning, numbers: Sequence[float]) -> str:
         case Calculated(truth=truth, unit=unit):
             return f"calculate {truth}" if unit is None else f"calculate {truth} in {unit or 1}"
         case Why():
-            return f"why {next(name for name, why in _REASONS.items() if why == meaning)}"
+            listed = next((name for name, why in _REASONS.items() if why == meaning), "")
+            if listed:
+                return f"why {listed}"
+            if not meaning.with_action and all(name in FACTS for name in meaning.shows):
+                return f"because {', '.join(meaning.shows)}"
         case Description():
             return "describe"
         case Unknowable(subject=subject):
@@ -395,6 +401,8 @@ def _meaning(text: str, numbers: Sequence[float], length: Length) -> Meaning:
             return Calculated(truth=rest, unit=None)
         case "why" if rest in _REASONS:
             return _REASONS[rest]
+        case "because" if rest and all(name in FACTS for name in rest.split(", ")):
+            return Why(shows=tuple(rest.split(", ")))
         case "unknown" if rest in SUBJECTS:
             return Unknowable(subject=SUBJECTS[rest], length=length)
         case "describe" if not rest:

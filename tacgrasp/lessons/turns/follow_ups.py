@@ -13,6 +13,7 @@ Not here: what is written anew in words (``tacgrasp.lessons.turns.rewriting``), 
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from dataclasses import replace
 
 from tacgrasp.lessons.dialogue.conditions import IN_BAND, OUTSIDE_BAND
@@ -189,14 +190,18 @@ def of_both(question: str, last: Meaning | None, earlier: Meaning | None) -> Cal
 
 def reason_of(asked: Meaning) -> Why | None:
     """The reason of an answer; None of what has none but itself."""
+    shown: Iterable[str] = ()
     match asked:
         case Check(shows=shows):
-            return Why(shows=tuple(name for name in shows if name in FACTS))
+            shown = (name for name in shows if name in FACTS)
         case Which(name="action"):
             return Why()
         case Amount(quantity=quantity) if quantity in FACTS:
-            return Why(shows=(quantity,))
+            shown = (quantity,)
+        case Calculated(truth=truth) if "action" in (names := Expression(truth).names):
+            return Why()
         case Calculated(truth=truth):
-            shown = (FACT_OF[name] for name in Expression(truth).names if name in FACT_OF)
-            return Why(shows=tuple(dict.fromkeys(shown)))
-    return None
+            names = Expression(truth).names
+            shown = (FACT_OF[name] for name in names if name in FACT_OF)
+    facts = tuple(dict.fromkeys(shown))
+    return Why(shows=facts) if facts else None

@@ -67,6 +67,7 @@ def test_a_follow_up_stands_behind_the_question_before():
         ("amount force - #2 mN.", Amount(quantity="force", unit="mN", less="250 / 1000")),
         ("check thrice depth > #2 µm.", check_of("thrice depth > 250 µm")),
         ("check force > #2 cN.", check_of("force > 250 cN")),
+        ("because mass, twice force.", Why(shows=("mass", "twice force"))),
         ("why felt.", Why(shows=("depth", "area", "force"))),
         ("unknown trait.", Unknowable(subject="that")),
         ("why both.", Why(with_action=True)),

@@ -5,10 +5,11 @@ from __future__ import annotations
 import pytest
 
 from tacgrasp.lessons.answering import answered
+from tacgrasp.lessons.dialogue.meaning import Calculated
 from tacgrasp.lessons.dialogue.query import read_query
 from tacgrasp.lessons.read_question import ReadQuestion
 from tacgrasp.lessons.turns import turn as turns
-from tacgrasp.lessons.turns.follow_ups import difference_of
+from tacgrasp.lessons.turns.follow_ups import difference_of, reason_of
 from tacgrasp.lessons.turns.turn import Turn, next_turn
 from tacgrasp.lessons.understanding import understood_by_grammar
 from tests.fakes.question_scenes import HELD
@@ -367,10 +368,17 @@ def test_what_compares_no_numbers_has_no_difference():
             "amount used %.",
         ),
         (("Is it safe to lift?", "Why?"), "why force."),
+        (("Is the mass over the sure load?", "Why?"), "because mass, holds."),
+        (("How wide is the band?", "How come?"), "because band_width."),
+        (("How far is it from the left edge?", "And why?"), "because x."),
     ],
 )
 def test_a_pronoun_stands_for_what_was_asked_for_until_something_else_is(questions, query):
     assert last_turn(*questions).read.query == query
+
+
+def test_what_no_fact_tells_has_no_reason():
+    assert reason_of(Calculated(truth="pad_width_mm > 10", unit=None)) is None
 
 
 def test_a_number_that_is_told_is_another_one_in_a_follow_up():
