@@ -58,10 +58,11 @@ from tacgrasp.lessons.dialogue.query import (
     read_query,
 )
 from tacgrasp.lessons.dialogue.rules.advised import advised, step_asked
+from tacgrasp.lessons.dialogue.rules.elsewhere import of_elsewhere
 from tacgrasp.lessons.dialogue.rules.friction import frictional
 from tacgrasp.lessons.dialogue.rules.members import member_of, verdict_of
 from tacgrasp.lessons.dialogue.rules.regions import of_region
-from tacgrasp.lessons.dialogue.rules.reported import of_history, reported
+from tacgrasp.lessons.dialogue.rules.reported import reported
 from tacgrasp.lessons.dialogue.rules.ruled import ruled_whole
 from tacgrasp.lessons.dialogue.rules.unread import is_beyond
 from tacgrasp.lessons.dialogue.sided_questions import to_named_side
@@ -171,7 +172,7 @@ def understood_by_grammar(question: str, before: str = "") -> ReadQuestion | Non
     # 'isn't more than 1 N felt' would be read as 'is not more than 1 N felt'
     if is_denied and (affirmed := understood_by_grammar(plain, before)):
         return affirmed
-    meaning = None if before else of_history(question) or reported(question)
+    meaning = None if before else of_elsewhere(question) or reported(question)
     if meaning is None and is_doubted_statement(question):
         meaning = judged_as_one(question)
     meaning = meaning or with_adjective(question) or either_of(question) or step_asked(question)

@@ -67,7 +67,7 @@ from tacgrasp.lessons.dialogue.meaning import (
 )
 from tacgrasp.lessons.dialogue.plain_words import plain_text
 from tacgrasp.lessons.dialogue.quantities import TIMES, UNITS, can_be_in
-from tacgrasp.lessons.dialogue.subjects import SUBJECTS
+from tacgrasp.lessons.dialogue.subjects import RULED_SUBJECTS, SUBJECTS
 from tacgrasp.lessons.dialogue.written_units import with_counted_parts
 
 MOST_NUMBERS = 4
@@ -320,7 +320,7 @@ def _numbered(num_numbers: int) -> Iterator[str]:
 
 def _alone() -> Iterator[str]:
     yield from (f"why {reason}" for reason in _REASONS)
-    yield from (f"unknown {subject}" for subject in SUBJECTS)
+    yield from (f"unknown {name}" for name in SUBJECTS if name not in RULED_SUBJECTS)
     yield from ("describe", "other")
 
 

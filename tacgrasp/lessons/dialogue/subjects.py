@@ -27,8 +27,13 @@ SUBJECTS: Mapping[str, str] = {
     "surroundings": "what is around it",
     "print": "what is printed on it",
     "past": "what happened to it before",
+    "future": "what will be",
+    "elsewhere": "what another finger touches",
     "law": "what the rules say about it",
     "friction": "its friction",
     "trait": "that",
 }
 """What touch can't know, as answers name it."""
+
+RULED_SUBJECTS = ("future", "elsewhere")
+"""Those that rules alone read, and no model names (``tacgrasp.lessons.dialogue.rules``)."""

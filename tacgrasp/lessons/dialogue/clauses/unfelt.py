@@ -219,6 +219,16 @@ _TRAIT_ALONE = re.compile(
 """'And what colour?'"""
 
 
+def names_touch(words: str) -> bool:
+    """Whether words name something of touch: a quantity, the pad, the grip."""
+    return _TOUCH.search(words) is not None
+
+
+def is_off_topic(words: str) -> bool:
+    """Whether words are about the world beside the gripper: weather, sports, a request."""
+    return bool(_TOPICS.search(words) or _REQUESTS.fullmatch(words))
+
+
 def unfelt_query(words: str) -> str:
     """The query of a question in plain words that touch can't answer; '' of any other question."""
     words = _GRIPPED.sub("", words)
@@ -226,7 +236,7 @@ def unfelt_query(words: str) -> str:
         return f"unknown {next(name for name, said in other.groupdict().items() if said)}."
     if _TOUCH.search(words):
         return ""
-    if _TOPICS.search(words) or _REQUESTS.fullmatch(words):
+    if is_off_topic(words):
         return "other."
     if "#" in words or " and " in words or is_class_named(words):
         return ""

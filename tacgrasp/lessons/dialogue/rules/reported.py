@@ -1,10 +1,8 @@
-"""Questions whether what somebody reports is right, and questions about what was before this touch.
+"""Questions whether what somebody reports is right.
 
     The display says 1 N. Is that right?            check force about #1 N.
     Is the operator right that the force is 2 N?    check force about #1 N.
     My colleague wrote 0.1 mm. Is he wrong?         check not depth about #1 mm.
-    Did the force ever go above 4 N?                unknown past.
-    Was the limit respected during the whole shift?
 
 Not here: statements that are doubted (``tacgrasp.lessons.dialogue.clauses.verdicts``).
 """
@@ -48,18 +46,6 @@ _COMPARES = re.compile(
     r"\b(?:over|under|above|below|more|less|at least|at most|between|within|than|exceeds?|beyond|"
     r"limit|band|weighs?|offset|left|right of|wide|away|from)\b"
 )
-_HISTORY = re.compile(
-    r"\bat any (?:time|point|moment|stage)\b|\bat no (?:time|point|moment)\b|"
-    r"\b(?:during|throughout) (?:the|this|your|our|my) (?:whole |entire |full |last |past )?"
-    r"(?:shift|day|night|week|month|cycle|run|session|morning|afternoon|hour)\b|"
-    r"\b(?:the|this) (?:whole|entire) (?:time|shift|day|run|cycle|job)\b|\ball along\b|"
-    r"\b(?:so far|until now|up to now) today\b|"
-    r"\b(?:did|has|have|had|was|were) (?:(?:the|my|our|its|this) \w+|it|we|you|i|this|that) "
-    r"(?:ever|always|never)\b(?!-)|"
-    r"\bnever (?:exceeded|went|got|left|fell|rose|passed|reached|dropped|slipped)\b|"
-    r"\bnever (?:been )?left\b|\balways (?:stayed|remained|kept|been)\b"
-)
-_NOW = re.compile(r"\d+ ?(?:g|grams?|kg)\b.*\b(?:ever|always)\b")
 
 
 def reported(question: str) -> Meaning | None:
@@ -80,11 +66,3 @@ def reported(question: str) -> Meaning | None:
     asked = asked_text(question)
     values = numbers_in_units(query, asked.words, asked.numbers)
     return None if values is None else read_query(query, values)
-
-
-def of_history(question: str) -> Meaning | None:
-    """What was before this touch, which one frame does not tell; None of other questions."""
-    words = question.lower()
-    if _HISTORY.search(words) is None or _NOW.search(words):
-        return None
-    return read_query("unknown past.")
