@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import re
 
-from policies.instructions.quantities.numerals import in_digits
 from tacgrasp.lessons.dialogue.meaning import (
     Amount,
     AnswerKind,
@@ -28,6 +27,7 @@ from tacgrasp.lessons.turns.units import (
     STATED,
     TIMES,
     dimension_of,
+    with_last_number,
 )
 
 _NEEDED = re.compile(
@@ -82,7 +82,8 @@ def needed(question: str, before: str, meant: Meaning | None) -> str:
 
 def of_a_mass(question: str, before: str, meant: Meaning | None) -> str:
     """The question before, of another mass than the one that was told."""
-    asked = ANOTHER_NUMBER.fullmatch(in_digits(question)) or _ANOTHER_THING.fullmatch(question)
+    asked = ANOTHER_NUMBER.fullmatch(with_last_number(question))
+    asked = asked or _ANOTHER_THING.fullmatch(question)
     if asked is None or meant is None or dimension_of(asked["unit"] or "g") != "mass":
         return ""
     truth = truth_of(meant)

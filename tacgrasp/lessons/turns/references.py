@@ -61,9 +61,22 @@ _SUM = re.compile(
 )
 
 
+_PRODUCT = re.compile(
+    r"(?:(?:what is|what's|and|so|please) )?(?:(?:multiply|times|multiplying) (?:the two|both|them|"
+    r"those(?: two)?|these(?: two)?|one by the other)(?: (?:together|for me|please))*|(?:the |"
+    r"their )?"
+    r"product(?: of (?:the two|both|them))?|(?:the two|both|them) multiplied)"
+)
+
 _SHARES = {"a quarter": "25", "a third": "33.3333", "half": "50", "a half": "50", "a tenth": "10",
          "a fifth": "20", "two thirds": "66.6667", "three quarters": "75"}  # fmt: skip
 _PARTS = re.compile(rf"(?<=than )(?:{'|'.join(_SHARES)})\b(?! of)")
+_BOUND_TAG = re.compile(
+    r"^(?P<bound>(?:over|above|under|below|beyond|past|at least|at most|(?:more|less) than) [^\s,]+"
+    r"(?: \w+)?),? (?:is|are|does|do|has|have)(?:n['’]?t)? (?:it|we|that|they)$"
+)
+"""'Over 80, is it?'"""
+
 _THAT_IS = re.compile(
     r"^(?:that|this|it)(?:['’]s| is) (?P<what>.+?)(?:, is(?:n['’]?t)? (?:it|that)(?: not)?)?$"
 )
@@ -128,6 +141,7 @@ def of_number(question: str, about: Meaning | None, earlier: Meaning | None) -> 
     if is_bound and _OFF.fullmatch(without_lead(question).strip(" ?.!")):
         return Calculated(truth=f"abs(force_n - {term.factor})", unit=unit)
     core = in_words(without_lead(question)).lower().strip(" ?.!")
+    core = _BOUND_TAG.sub(r"\g<bound>", core)
     core = _THAT_IS.sub(r"is that \g<what>", core)
     if term.dimension == "fraction":
         core = _PARTS.sub(lambda part: f"{_SHARES[part[0]]} %", core)
@@ -151,7 +165,7 @@ def of_number(question: str, about: Meaning | None, earlier: Meaning | None) -> 
         unit = unit_symbol(in_unit["unit"]) or unit
         core = core[: in_unit.start()] if _MULTIPLE.fullmatch(core[: in_unit.start()]) else core
     if of_both := _of_both(core, term, earlier):
-        return replace(of_both, unit=unit)
+        return replace(of_both, unit=of_both.unit or unit)
     if found := _MULTIPLE.fullmatch(core):
         factor = TIMES.get(found["times"] or "") or float(
             found["number"] or float(found["percent"] or 100) / 100
@@ -207,11 +221,16 @@ def _calculated(core: str, term: Term, unit: str) -> Calculated | None:
 
 
 def _of_both(core: str, term: Term, earlier: Meaning | None) -> Calculated | None:
-    """The difference, or the sum, of the last two numbers."""
+    """The difference, the sum, or the product, of the last two numbers."""
     is_sum = _SUM.fullmatch(core) is not None
-    if not is_sum and _DIFFERENCE.fullmatch(core) is None:
+    is_product = _PRODUCT.fullmatch(core) is not None
+    if not is_sum and not is_product and _DIFFERENCE.fullmatch(core) is None:
         return None
     other, _ = _number(earlier)
+    if is_product:
+        if other is None or (other.dimension, term.dimension) != ("length", "length"):
+            return None
+        return Calculated(truth=f"{other.factor} * {term.factor}", unit="mm²")
     pair = alike(other, term) if other is not None else None
     if pair is None or pair[0].expression == pair[1].expression:
         return None

@@ -50,7 +50,7 @@ from tacgrasp.lessons.turns.supposed import (
     under_supposition,
     with_another_supposition,
 )
-from tacgrasp.lessons.turns.units import ANOTHER_NUMBER, STATED, dimension_of
+from tacgrasp.lessons.turns.units import ANOTHER_NUMBER, STATED, dimension_of, with_last_number
 
 _PREPOSITION = (
     r"from|to|in|into|above|below|over|under|beyond|between|within|at least|at most|more than|"
@@ -131,7 +131,9 @@ _LESS = re.compile(r"\b(?:less|under|below|at most|shallower|lower|lighter)\b", 
 
 def _with_another_number(question: str, before: str) -> str:
     """The question before with the number of a follow-up, in its unit where that has none."""
-    asked = ANOTHER_NUMBER.fullmatch(in_digits(question))
+    asked = ANOTHER_NUMBER.fullmatch(with_last_number(question))
+    if STATED.search(before) is None:
+        before = in_digits(before)
     if (
         asked is None
         or (_MORE.search(before) and _LESS.search(question))

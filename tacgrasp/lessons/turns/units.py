@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import re
 
+from policies.instructions.quantities.numerals import in_digits
 from tacgrasp.lessons.dialogue.quantities import UNITS
 from tacgrasp.lessons.turns.leads import END, LEAD
 
@@ -45,6 +46,26 @@ ANOTHER_NUMBER = re.compile(
     rf"(?: (?:added|on top|off|one|1|object|part|piece|thing))?{END}",
     re.I,
 )
+
+
+_COUNTED = {"one": 1, "two": 2, "three": 3, "four": 4, "five": 5, "six": 6, "seven": 7, "eight": 8,
+            "nine": 9, "ten": 10, "twenty": 20, "thirty": 30, "forty": 40, "fifty": 50,
+            "sixty": 60, "seventy": 70, "eighty": 80, "ninety": 90, "a hundred": 100,
+            "one hundred": 100, "two hundred": 200}  # fmt: skip
+_LAST_NUMBER = re.compile(
+    rf"\b(?P<count>{'|'.join(sorted(_COUNTED, key=len, reverse=True))})(?P<half> and a "
+    rf"half)?(?={END}$)",
+    re.I,
+)
+
+
+def with_last_number(question: str) -> str:
+    """A follow-up in digits, also its last number without a unit: 'one and a half'."""
+
+    def number(found: re.Match[str]) -> str:
+        return f"{_COUNTED[found['count'].lower()] + (0.5 if found['half'] else 0):g}"
+
+    return _LAST_NUMBER.sub(number, in_digits(question))
 
 
 def dimension_of(unit: str | None) -> str:

@@ -63,9 +63,12 @@ _CLAIM_TAG = re.compile(
     r"y or n|right|correct|true|agreed|yes|no)$"
 )
 _IN_UNIT = re.compile(
-    rf"(?:(?: (?:measured|expressed|given|said|stated|counting|counted))? (?:in|as)|"
+    rf"(?:(?: (?:measured|expressed|given|said|stated|counting|counted|only|just))? (?:in|as)|"
     r" (?:converted|translated|turned) (?:to|into)|"
     rf"^(?:counting |measured |expressed )?in) (?:plain |whole )?({UNIT})(?= |$)"
+)
+_CONVERT = re.compile(
+    rf"^(?:convert|translate|turn|change) (?P<what>.+?) (?:in)?to (?P<unit>{UNIT})$"
 )
 _LAST_UNIT = re.compile(
     rf"(?<!#\d)(?<!\bper)(?<!\ba)(?<!\bone)(?<!\bof)(?<!\bby)(?<!\bthan) "
@@ -146,11 +149,16 @@ _AT_ONCE = re.compile(r" (?:at the same time|simultaneously|together|at once)$")
 _GIVEN_MASS = re.compile(
     r"^(?:with|given|by|from|going by) the (?:mass|weight)(?: "
     r"(?:that )?(?:i|we|you)(?: \w+){1,3}?)? (?=what|how)|"
+    r" (?:going by|given|from|by|taking|using|with) the (?:(?:told|stated|given) )?(?:mass|"
+    r"weight)$|"
     r" (?:going by|given|from|by) the (?:mass|weight) (?:(?:that )?(?:i|we|you|it)\b.*|(?:given|"
     r"stated|told))$"
 )
 _REMARK = re.compile(
-    r" one way or (?:the other|another)\b| (?:i|we) need (?:it|this|"
+    r" one way or (?:the other|another)\b| (?:without|beyond) (?:any|a) doubt\b|"
+    rf"(?: only| just)?(?: instead of| rather than| not) (?:in )?(?:{UNIT})$| (?:for me )?would "
+    rf"you$|"
+    r" (?:makes|comes to|amounts to)$| (?:i|we) need (?:it|this|"
     r"that|them) .*$| whichever (?:is|one is) \w+$"
 )
 _AMOUNT_OF = re.compile(
@@ -283,9 +291,8 @@ class AskedWords:
         """Words whose bare numbers have the unit that the question names beside them."""
         if not self.unit:
             return words
-        return re.sub(
-            rf"(#\d+)(?! (?:{UNIT})\b| times| \w+ of )", rf"\1 {self.unit.lower()}", words
-        )
+        unit = "percent" if self.unit == "%" else self.unit.lower()
+        return re.sub(rf"(#\d+)(?! (?:{UNIT})\b| times| \w+ of )", rf"\1 {unit}", words)
 
     def about(self, subject: Term, words: str, base: str = "") -> AskedWords:
         """The rest of the question, whose pronouns stand for a term, and so does a name."""
@@ -368,6 +375,8 @@ def _floored(words: str, numbers: Sequence[float]) -> tuple[str, bool]:
 
 def _unit(words: str) -> tuple[str, str]:
     """The unit that is asked for, and the words without it."""
+    if converted := _CONVERT.match(words):
+        return unit_of(converted["unit"]), converted["what"]
     if many := _MANY.search(words):
         return unit_of(many[1]), f"{words[: many.start()]}how much{words[many.end() :]}"
     found = list(_IN_UNIT.finditer(words))

@@ -198,7 +198,7 @@ def test_several_follow_ups_in_a_row_lose_nothing(questions, query):
         (("Object mass is 32 g.", "Will it hold?", "Sorry, 82 g.", "Still enough?"), HOLDS),
         (
             ("How much force is needed for 150 g?", "How many newtons are we away from that?"),
-            "calculate abs(force_n - (gram_n * 150)) in N.",
+            "calculate abs(force_n - gram_n * 150) in N.",
         ),
         # two conditions
         (
@@ -370,6 +370,16 @@ def test_what_compares_no_numbers_has_no_difference():
         (("Is it safe to lift?", "Why?"), "why force."),
         (("Is the mass over the sure load?", "Why?"), "because mass, holds."),
         (("How wide is the band?", "How come?"), "because band_width."),
+        (
+            ("How high is the pad?", "And wide?", "Multiply both."),
+            "calculate pad_height_mm * pad_width_mm in mm².",
+        ),
+        (
+            ("What percentage of the limit do we use?", "Under 60, are we?"),
+            "calculate 100 * force_n / limit_n < 60.",
+        ),
+        (("Would this surely hold 25 g?", "Fifty, then?"), "calculate holds_g >= 50."),
+        (("Would this surely hold 25 g?", "And two hundred?"), "calculate holds_g >= 200."),
         (("How far is it from the left edge?", "And why?"), "because x."),
     ],
 )
