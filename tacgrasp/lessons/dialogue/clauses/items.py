@@ -13,6 +13,8 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
+from tacgrasp.lessons.dialogue.calculations.amounts import amount_of
+from tacgrasp.lessons.dialogue.calculations.asked import asked_words
 from tacgrasp.lessons.dialogue.calculations.quantity_names import UNIT, unit_of
 from tacgrasp.lessons.dialogue.clauses.conditions import condition_of_statement
 from tacgrasp.lessons.dialogue.clauses.plain_clause import numbered
@@ -80,6 +82,12 @@ _ITEMS = (
                        r"\bwhole or (?:cut|clipped)\b",
           "cut clipped cropped or whole complete not off edge"),
     _item("worse_axis", r"\bworse (?:axis|offset|direction)\b", "worse axis offset direction"),
+    _item("side_x", r"\bleft or (?:the )?right\b|\bside\b.*\b(?:horizontal\w*|sideways)\b",
+          "left right or side half of horizontally horizontal sideways leans lean center middle"),
+    _item("side_y", r"\bpalm(?: side)? or (?:the )?(?:finger)?tip\b|"
+                    r"\bside\b.*\b(?:vertical\w*|lengthwise)\b",
+          "palm tip fingertip or side half of vertically vertical lengthwise leans lean nearer "
+          "closer center middle"),
     _item("texture", r"\b(?:texture|finish|grain|roughness)\b|\bsurface (?:feel|type|quality|"
                      r"kind|relief)\b|"
           r"\bfeel\b$|^(?:the )?surface$|\bkind of surface\b|\bhow (?:it|the surface|"
@@ -131,7 +139,8 @@ _ITEMS = (
           "hold holds carry carries lift lifts bear support payload capacity load hang keep surely "
           "sure certain certainly safely safe grip grasp squeeze most maximum max heaviest mass "
           "weight "
-          "guaranteed definitely for without slipping secure securely able up reliably", "g kg"),
+          "guaranteed definitely for without slipping secure securely able up reliably",
+          "g kg oz lb"),
     _item("headroom", r"\b(?:headroom|margin|room|left|reserve|remaining)\b.*\b(?:limit|"
                       r"ceiling)\b|\bheadroom\b|"
           r"\bmargin\b", "headroom margin room left reserve remaining limit ceiling force under "
@@ -146,14 +155,14 @@ _ITEMS = (
     _item("band_high", r"\b(?:upper|high|top|maximum|most)\b",
           f"{_BAND} upper high top maximum most", "N mN"),
     _item("mass", r"\b(?:mass|weight|weighs|heavy)\b", "mass weight weighs heavy of object "
-                                                       "given stated", "g kg"),
+                                                       "given stated told agreed", "g kg oz lb"),
     _item("force", r"\b(?:force|squeez\w*|grip\w*|pinch\w*|clamp\w*|push\w*|press\w*|hard|"
                    r"strong\w*|(?:milli|centi)?newtons?|n|mn)\b",
           "force grip gripping squeeze squeezing pinch clamp clamping pushing pressing press "
           "pressure hard strong strongly strength firmly apply applying applied exert exerting "
           "exerted contact normal holding held with put putting on onto use using used go going "
           "are being "
-          f"{_PADS}", "N mN cN g kg"),
+          f"{_PADS}", "N mN cN g kg kgf lbf ozf"),
 )  # fmt: skip
 _UNIT = re.compile(
     rf"(?:\b(?:in|as|how many|how much) )?(?:\b(?:plain|whole|full) )?\b(?P<unit>{UNIT})\b"
@@ -191,13 +200,20 @@ def item_of(text: str) -> Part | None:
     if _CIRCUMSTANCE.match(text) or _WISHED.search(text) or _REFERS.search(text):
         return None
     if whether := _WHETHER.fullmatch(text):
-        return _check(whether["stated"])
+        return _check(whether["stated"]) or _named(numbered(whether["stated"])[0])
     words, numbers = numbered(text)
     if is_verdict or _VERB_FIRST.match(text):
         return _check(text)
-    if numbers or words.count(" ") >= MOST_WORDS:
+    if words.count(" ") >= MOST_WORDS:
         return None
-    return _named(words)
+    return (None if numbers else _named(words)) or _calculated(text)
+
+
+def _calculated(text: str) -> Calculated | None:
+    """A term that is itself what is asked for: 'the pad's width', 'half of the limit'."""
+    asked = asked_words(text)
+    term = asked.term(asked.words)
+    return amount_of(term, asked) if term else None
 
 
 def _check(text: str) -> Calculated | None:
@@ -229,7 +245,7 @@ def _named(words: str) -> Amount | Which | None:
             unit
             and item.name == "force"
             and UNITS[unit].dimension == "mass"
-            and "force" not in rest
+            and "force" not in words
         ):
             continue
         return Amount(quantity=item.name, unit=unit or usual)

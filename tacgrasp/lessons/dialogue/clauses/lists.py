@@ -109,6 +109,15 @@ _UNITS_BEHIND = re.compile(
 )
 """'Force, coverage, depth in N, percent, mm'."""
 
+_PAD_SIZE = re.compile(
+    r"(?:what (?:is|are) )?(?:the |your |our )?(?:sensing )?(?:pad|sensor|gel)(?:['’]s)?(?: "
+    r"(?:size|"
+    r"dimensions|measurements))?[?:,.–—-]* (?=(?:the )?(?:width|height|diagonal)\b)",
+    re.I,
+)
+_SIZE = re.compile(r"\b(?:width|height|diagonal)\b", re.I)
+"""'Pad dimensions: width, height', which are the pad's."""
+
 _BETWEEN_UNITS = re.compile(r",? and |, ")
 _BRACKETED = re.compile(rf"\s*[(\[]\s*(?:in )?(?P<unit>{UNIT}|µm|cm²|mm²|%)\s*[)\]]", re.I)
 _JOINT = re.compile(
@@ -160,6 +169,8 @@ def _cores(question: str) -> Sequence[str]:
         told = f"{text[: shared.start()]} in {shared['unit']}"
         text = re.sub(r"\s*(?=[,;?]| and\b)", f" in {shared['unit']}", told)
     text = _OWN_UNIT.sub(" ", text)
+    if pad := _PAD_SIZE.match(text):
+        text = _SIZE.sub(r"pad \g<0>", text[pad.end() :])
     if behind := _UNITS_BEHIND.fullmatch(text):
         items, units = (_BETWEEN_UNITS.split(behind[name]) for name in ("items", "units"))
         if len(items) == len(units):
