@@ -229,9 +229,11 @@ _IN_UNIT = re.compile(r"\bin [a-zµ²%]+\b|\bhow many\b", re.I)
 _NUMBER = r"(?<![\d.,])(\d+(?:\.\d+)?)"
 _FOREIGN = (
     (r"(?:grams?[ -](?:of )?force|gf)\b", 9.80665e-3, "newtons"),
-    (r"(?:pounds?|lbs?|lbf)(?:[ -](?:of )?force)?\b", 453.59237, "grams"),
-    (r"(?:ounces?|oz|ozf)(?:[ -](?:of )?force)?\b", 28.349523, "grams"),
-    (r"(?:kgf|kp|kilograms?[ -](?:of )?force|kiloponds?)\b", 1000, "grams"),
+    (r"(?:lbf|(?:pounds?|lbs?)[ -](?:of )?force)\b", 4.4482216, "newtons"),
+    (r"(?:ozf|(?:ounces?|oz)[ -](?:of )?force)\b", 0.27801385, "newtons"),
+    (r"(?:pounds?|lbs?)\b", 453.59237, "grams"),
+    (r"(?:ounces?|oz)\b", 28.349523, "grams"),
+    (r"(?:kgf|kp|kilograms?[ -](?:of )?force|kiloponds?)\b", 9.80665, "newtons"),
     (r"(?:kn|kilonewtons?)\b", 1000, "newtons"),
     (r"(?:[µu]n|micronewtons?)\b", 1e-6, "newtons"),
     (r"(?:dyn|dynes?)\b", 1e-5, "newtons"),

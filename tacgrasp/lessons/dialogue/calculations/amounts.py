@@ -26,7 +26,7 @@ from tacgrasp.lessons.dialogue.calculations.differences import (
 )
 from tacgrasp.lessons.dialogue.calculations.footprints import circle, free_area, pressure, volume
 from tacgrasp.lessons.dialogue.calculations.loads import as_many_as, load, needed, safety_factor
-from tacgrasp.lessons.dialogue.calculations.quantity_names import UNIT, unit_of
+from tacgrasp.lessons.dialogue.calculations.quantity_names import THING, UNIT, unit_of
 from tacgrasp.lessons.dialogue.calculations.scales import on_scale
 from tacgrasp.lessons.dialogue.calculations.shares import (
     ratio,
@@ -58,6 +58,7 @@ _WEIGHS = re.compile(
     r"gripped )?[a-z]+ "
     r"with (?:how much|what|how many [a-z]+)"
 )
+_AS_FORCE = re.compile(r"\b(?:force|strongly|hard)\b")
 _MASS_OF = re.compile(
     r"(?:what|which|how much|how large a) (?:mass|weight)(?: would| does)? "
     r"(?:weighs?|be|is)(?: (?:exactly|just))? (?:as much as|the same as|equal to) "
@@ -73,7 +74,8 @@ _AT = re.compile(
     r"at how much (?:would|will|do|should) (?:we|i|it|you) (?:stand|be)(?: at)? (?P<a>.+)"
 )
 _ALONE = re.compile(
-    r"(?:(?:what|how (?:much|large|big|great)|(?:what|which) (?:force|depth|mass|area)) "
+    r"(?:(?:what|how (?:much|large|big|great|long|wide|heavy)|(?:what|which) (?:force|depth|mass|"
+    r"area)) "
     r"(?:is|are|would be|makes?) )?(?P<a>.+?)(?: (?:(?:what|how much) is (?:it|that|the .+)|"
     r"(?:would |will )?(?:comes?|come|amounts?|total|weigh|add up) (?:to )?(?:what|how much)|(?:is|"
     r"makes|equals) (?:what|how much)|"
@@ -89,6 +91,13 @@ _ON_SCALE = re.compile(
     r"(?:scales?|balance) (?:show|read|say|display|indicate|report)s?"
     r"(?: (?:if|when|under|with|for|at) .*)?"
 )
+_ON_GAUGE = re.compile(
+    rf"(?:(?:an?|the|my|our) )?(?:\w+ )?(?:scales?|gauge|balance|meter|display) (?:reads?|shows?|"
+    rf"is in|"
+    rf"uses?|displays?) (?:in )?(?P<unit>{UNIT}) (?:and |so )?(?:what|how much) (?:would|will|"
+    rf"does) it "
+    r"(?:show|read|say|display)(?: (?:for|of|at|with|here|now) ?.*)?"
+)
 _OF_FORCE = re.compile(rf"(?P<unit>{UNIT}) of (?:force|grip|squeeze|push|pull)")
 _OWN_UNITS: Mapping[str, str] = {"area": "mm²", "volume": "mm³"}
 """Units in which answers give what only a calculation has."""
@@ -96,7 +105,9 @@ _OWN_UNITS: Mapping[str, str] = {"area": "mm²", "volume": "mm³"}
 
 def calculated_amount(asked: AskedWords) -> Calculated | None:
     """The number that a question asks to calculate; None where it asks for none."""
-    if alone := _OF_FORCE.fullmatch(asked.words):  # 'kilos of force, please'
+    if alone := _OF_FORCE.fullmatch(asked.words) or _ON_GAUGE.fullmatch(
+        asked.words
+    ):  # 'kilos of force, please'
         asked = replace(asked, words="force", unit=unit_of(alone["unit"]))
     if not asked.numbers and _ON_SCALE.fullmatch(asked.words):
         asked = replace(asked, words="force", unit=asked.unit or "g")
@@ -147,8 +158,11 @@ def amount_of(term: Term, asked: AskedWords) -> Calculated | None:
 
 def _weight(asked: AskedWords) -> Term | None:
     """The object's weight in newtons, and the mass that weighs as much as a force."""
-    if _WEIGHS.fullmatch(asked.words) and asked.unit in ("N", "mN"):
-        return Term(expression="mass_g", dimension="mass", words="", is_weight=True)
+    if _WEIGHS.fullmatch(asked.words):
+        mass = Term(expression="mass_g", dimension="mass", words="", is_weight=True)
+        if asked.unit in ("N", "mN"):
+            return mass
+        return in_newtons(mass) if not asked.unit and _AS_FORCE.search(asked.words) else None
     found = _MASS_OF.fullmatch(asked.words)
     force = asked.term(found["a"], beside=usual("force")) if found else None
     if force is None or force.dimension != "force":
@@ -158,14 +172,17 @@ def _weight(asked: AskedWords) -> Term | None:
 
 _PULLS_DOWN = re.compile(
     r"(?:with )?(?:what|how much|how many [a-z]+)(?: force)? (?:does|would|will|do) (?P<a>.+?) "
-    r"(?:pull|tug|hang|weigh|press|drag)(?: down| downwards?| with| at)*"
+    r"(?:pull|tug|hang|weigh|press|drag)(?: down| downwards?| with| at)*|"
+    r"(?P<b>.+?) (?:pull|tug|hang|press|drag)s? down(?:wards?)? with (?:what|how much)(?: force)?"
 )
+_BODY = re.compile(rf"(?:the|this|that|our|my) {THING}")
 
 
 def _pulls_down(asked: AskedWords) -> Term | None:
     """The weight of a named mass: 'what does a 200 g pear pull down with'."""
     found = _PULLS_DOWN.fullmatch(asked.words)
-    mass = asked.term(found["a"]) if found else None
+    named = (found["a"] or found["b"]) if found else ""
+    mass = asked.term("mass" if _BODY.fullmatch(named) else named) if named else None
     if mass is None or mass.dimension != "mass" or mass.expression == "holds_g":
         return None
     return in_newtons(mass)

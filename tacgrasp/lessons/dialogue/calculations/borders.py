@@ -33,12 +33,12 @@ _SIDES: Mapping[str, tuple[str, str]] = {
 _TO_UPRIGHT, _TO_LEVEL = f"{_X} - abs(x_mm)", f"{_Y} - abs(y_mm)"
 """Distances from the nearer one of two borders."""
 
-_PAD = r"(?:pad|sensor|gel|sensing area|sensing surface|skin)"
+_PAD = r"(?:pad|sensor|gel|sensing area|sensing surface|sensing window|skin)"
 _OF_PAD = rf"(?: (?:of|on|in) (?:(?:the|our|its|this|your) )?{_PAD})?"
 _RIM = r"(?:edges?|borders?|rims?|boundary|boundaries|margins?|ends?|sides?)"
 _BORDER = re.compile(
     rf"\b(?:from|to|and|of|between|before|is|until|till|off|over|past|reach(?:es|ed|ing)?|hits?|"
-    rf"across) "
+    rf"across|separates?) "
     rf"(?:(?:the|our|its|this|your) )?(?:{_PAD} )?(?:{_PAD}'s )?(?:"
     + "|".join(f"(?P<{side}>{words})" for side, (words, _) in _SIDES.items())
     + rf")(?: hand)?(?: side)?(?: {_PAD})?(?: side)? (?:edge|border|rim|boundary|margin|end)"
@@ -56,6 +56,8 @@ _ANY_BORDER = re.compile(
     rf"whichever|whatever|either)(?: one)?(?: of {_OWN}|(?= ))(?: (?:the )?(?:four|#\d+))?) ?"
     rf"(?:{_PAD} |{_PAD}'s )?(?P<what>corner|{_RIM}){_OF_PAD}"
     rf"(?: is (?:the )?(?:nearest|closest|nearer|closer)(?: to (?:it|that|the contact))?)?|"
+    rf"(?:of )?(?:(?:all )?(?:(?:the|our) )?(?:four|#\d+)(?: {_PAD})? (?P<four>{_RIM}){_OF_PAD}) "
+    rf"(?:take |pick |choose )?(?:the|whichever|which)(?: one)?(?: is)? {_NEAR}(?: one)?|"
     rf"{_OWN}(?P<one>corner|border|edge|rim)(?: that| which)? is (?:the )?{_NEAR}(?: to it)?)\b"
 )
 _LONG = rf"#\d+ (?:{UNIT})"
@@ -88,7 +90,8 @@ _OF_DISTANCE = (
     r"under|below|"
     r"vertical|horizontal|over|above|for|feel|need|so|free|surface|air|bird|flight|keeping|get|"
     r"gets|i'll|"
-    r"(?:contact|touch|object|thing|patch|item)'s|level|after|am|going|correction|effect)"
+    r"(?:contact|touch|object|thing|patch|item|print|imprint|dent|spot)'s|midpoint|come|comes|gets|"
+    r"dent|trace|apart|separate|extends?|whichever|one|four|level|after|am|going|correction|effect)"
 )
 _AGAINST = re.compile(rf"\b(?:{AGAINST}) (?P<by>{_LONG})\b")
 _CLEAR = re.compile(rf"(?<= )(?P<by>{_LONG}) (?=(?:clear|away|inward|inside|free)\b)")
@@ -97,12 +100,13 @@ _VERB = re.compile(
     rf"(?:{AGAINST}) )"
 )
 _WHOLE_PAD = (
-    rf"(?:(?:the|your|this|our|its|whole|entire|full) )*(?:(?:sensing|gel|sensor|tactile|touch|"
+    rf"(?:(?:the|your|this|that|our|its|whole|entire|full) )*(?:(?:sensing|gel|sensor|tactile|"
+    rf"touch|"
     rf"finger) )*"
     rf"{_PAD}(?: surface| itself)?(?: (?:that )?(?:you|we) (?:feel|sense|touch)(?: with)?)?"
 )
 _PAD_IS = re.compile(
-    rf"(?:how (?:(?P<wide>wide|broad)|high|tall) is {_WHOLE_PAD}|"
+    rf"(?:how (?:(?P<wide>wide|broad)|high|tall) is {_WHOLE_PAD}(?: anyhow| anyway)?|"
     r"(?:what is )?(?:(?:the|total|full|whole) )*(?:(?P<width>width|breadth)|height) of "
     rf"{_WHOLE_PAD}|"
     rf"(?:what is )?{_WHOLE_PAD}(?:'s)? (?:(?P<w>width|breadth)|height))"
@@ -113,9 +117,12 @@ _PAD_RATIO = re.compile(
 )
 _PAD_AREA = re.compile(
     rf"(?:what|how (?:large|big|much)) (?:area )?(?:is|has|does) {_WHOLE_PAD}(?: have| in total)?|"
-    rf"(?:what is )?(?:(?:the|total|full|whole|entire) )*(?:sensing )?(?:area|surface) of "
+    rf"(?:what is )?(?:(?:the|total|full|whole|entire) )*(?:sens(?:ing|itive) )?(?:area|surface) "
+    rf"of "
     rf"{_WHOLE_PAD}|"
-    rf"(?:what is )?(?:(?:the|total|full|whole|entire) )+(?:gel|pad|sensor|sensing)(?:'s)? area"
+    rf"(?:what is )?(?:(?:the|total|full|whole|entire) )+(?:gel|pad|sensor|sensing|"
+    rf"sensitive)(?:'s)? "
+    rf"(?:area|surface)"
     rf"(?: of {_WHOLE_PAD})?|(?:what is )?{_WHOLE_PAD}(?:'s)? (?:(?:total|whole|full|entire) )+area"
 )
 _ORIGIN = re.compile(
@@ -148,6 +155,24 @@ _OF_WHICH = (
 )
 
 
+_NAMED_SIDE = (
+    rf"(?:the |our )?(?:{_PAD}'s |{_PAD} "
+    rf")?(?P<{{0}}>{'|'.join(said for said, _ in _SIDES.values())})"
+    rf"(?: hand)?(?: side)?(?P<rim_{{0}}> {_RIM})?{_OF_PAD}"
+)
+_CLOSER_TO = re.compile(
+    rf".*\b(?:closer|nearer|closest|nearest)(?: to)? {_NAMED_SIDE.format('a')} or (?:rather "
+    rf")?(?:to )?"
+    rf"{_NAMED_SIDE.format('b')}"
+)
+_ACROSS = re.compile(
+    rf"(?=.*\b(?:percent|percentage|share|fraction|far)\b)(?:.*\bof the way|.*\bhow far) (?:across|"
+    rf"along|over|up|down)\b(?!.*#).*\bfrom (?:the )?(?:{_PAD}'s )?"
+    rf"(?P<side>{'|'.join(said for said, _ in _SIDES.values())})\b"
+)
+"""'What percentage of the way across the pad, from the left?'"""
+
+
 def to_border(asked: AskedWords) -> Term | None:
     """The distance of the contact's middle from a border, or the pad's width or height."""
     if found := _PAD_IS.fullmatch(asked.words):
@@ -159,6 +184,11 @@ def to_border(asked: AskedWords) -> Term | None:
     if _PAD_AREA.fullmatch(asked.words):
         return Term(expression="pad_width_mm * pad_height_mm", dimension="area", words="")
     words = _PAD_SIZE.sub("", asked.words)
+    if across := _ACROSS.search(words):
+        side = _side_named(across["side"])
+        size = "pad_width_mm" if side in ("left", "right") else "pad_height_mm"
+        share = f"100 * ({_SIDES[side][1]}) / {size}"
+        return Term(expression=share, dimension="fraction", words="")
     if expression := _from_corner(words):
         return _length(expression)
     if (beside := _BESIDE.search(words)) and is_made_of(beside["rest"], _OF_DISTANCE):
@@ -190,6 +220,8 @@ def border_check(asked: AskedWords) -> Calculated | None:
 def nearest_border(asked: AskedWords) -> Calculated | None:
     """Which of the four borders, or corners, is nearest, in the question's own words."""
     words = asked.words
+    if closer := _CLOSER_TO.fullmatch(words):
+        return _closer_of(closer)
     if asked.unit or _HOW_FAR.search(words) or not _WHICH.search(words):
         return None
     if not is_made_of(words, _OF_WHICH):
@@ -209,6 +241,15 @@ def nearest_border(asked: AskedWords) -> Calculated | None:
         ),
         unit=None,
     )
+
+
+def _closer_of(found: re.Match[str]) -> Calculated | None:
+    """Which of two borders of different directions is nearer; None of opposite ones."""
+    sides = [_side_named(found[name]) for name in "ab"]
+    if not (found["rim_a"] or found["rim_b"]) or len({side in "left right" for side in sides}) < 2:
+        return None
+    a, b = (_SIDES[side][1] for side in sides)
+    return Calculated(truth=f"'{found['a']}' if {a} < {b} else '{found['b']}'", unit=None)
 
 
 _FARTHER = re.compile(
@@ -258,13 +299,17 @@ def _distance(words: str) -> tuple[str, str]:
         y = _SIDES["top" if found["top"] else "bottom"][1]
         expression = f"hypot({x}, {y})"
     elif found := _ANY_BORDER.search(words):
-        is_corner = (found["what"] or found["one"]) == "corner"
+        is_corner = (found["what"] or found["four"] or found["one"]) == "corner"
         expression = f"{'hypot' if is_corner else 'min'}({_TO_UPRIGHT}, {_TO_LEVEL})"
     elif found := _BORDER.search(words):
         expression = _side_of(found)
     else:
         return "", words
     return expression, f"{words[: found.start()]} {words[found.end() :]}"
+
+
+def _side_named(words: str) -> str:
+    return next(side for side, (said, _) in _SIDES.items() if re.fullmatch(said, words))
 
 
 def _side_of(found: re.Match[str]) -> str:

@@ -14,6 +14,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from tacgrasp.lessons.dialogue.calculations.asked import AskedWords, usual
+from tacgrasp.lessons.dialogue.calculations.quantity_names import THING
 from tacgrasp.lessons.dialogue.calculations.terms import Term, alike
 from tacgrasp.lessons.dialogue.quantities import UNITS
 
@@ -79,7 +80,7 @@ _MORE_OF = re.compile(
 )
 _ANOTHER = re.compile(
     rf"{_WITH}(?:another|(?:an? )?(?:extra|additional|further)) (?P<b>#\d+ \w+)(?: (?:of )?"
-    rf"(?:(?:the|my|our) )?(?P<a>{_GRIP}))?"
+    rf"(?:(?:the|my|our) )?(?P<a>{_GRIP}))?(?: on top(?: of .+)?)?"
 )
 _AT_TIMES = re.compile(
     rf"{_WITH}(?P<n>half|twice|double|two times|thrice|triple|three times|four times|quadruple) "
@@ -196,6 +197,37 @@ _WEIGHED = re.compile(
     r"(?: than (?:(?:you|we|i) (?:were|was|are|am) told|told|now|it is(?: now)?|stated|given|"
     r"(?:you|we|i) think))?"
 )
+_HELD = rf"(?:it|this|that|they|(?:(?:the|this|that|my|our) )?(?:told |held )?{THING})"
+_HEAVIER = re.compile(
+    rf"{_HELD} (?:were|was|is|weigh(?:s|ed)?|had|has|got|be|turned out)(?: to be)? (?P<n>half|"
+    rf"twice|"
+    r"double|thrice|triple|three times|four times|#\d+ times) (?:(?:as|so) (?:heavy|much)|heavier|"
+    r"(?:(?:the|its|that|this|as much) )?(?:mass|weight))(?: (?:as|than) .+|(?: that)? (?:i|we|"
+    r"you) .+|"
+    r" (?:stated|told|given|agreed))?|"
+    rf"(?:the |its )?(?:mass|weight)(?: of {_HELD})? (?:was|were|is) (?P<m>half|twice|double|"
+    rf"thrice|"
+    r"triple|#\d+ times)(?: (?:that|as (?:much|large|big)|what .+))?"
+)
+"""'The part were twice as heavy'."""
+
+_SECOND = re.compile(
+    rf"(?:an?|#1|one|another|one more|the same)? ?(?:second|further|other|identical|equal|more|"
+    rf"such)?"
+    rf"(?: (?:identical|equal|similar|equally heavy|such|more))* ?(?:one|{THING}|copy|twin)"
+    r"(?: (?:just |exactly )?like (?:this|it)(?: one)?)? (?:(?:were|was|is|got|came|hung|stuck) )?"
+    r"(?:stuck|glued|added|put|placed|hung|attached|tied|fixed|taped|joined|on)"
+    r"(?: (?:to|onto|on|with|under|beneath|below)(?: top of)? (?:it|this|that|the \w+)(?: one)?)?"
+)
+"""'A second identical one hung on it'."""
+
+_STUCK = re.compile(
+    r"(?:(?:another|an extra|some) )?(?P<b>#\d+ \w+)(?: (?:of )?[a-z]+)? (?:were|was|is|are|got|"
+    r"came) "
+    r"(?:stuck|glued|added|put|placed|hung|attached|tied|fixed|taped|poured|filled)"
+    r"(?: (?:to|onto|on|into|in)(?: top of)? (?:it|this|that|the \w+))?"
+    r"(?: (?:on top of|besides|beside|over and above) .+)?"
+)
 _FROM_HERE = re.compile(
     r" from (?:here|where (?:it|we) (?:is|are)(?: now)?|(?:the|its) (?:present|current) "
     r"(?:value|level|reading|state))$"
@@ -227,10 +259,24 @@ def changed(asked: AskedWords, change: str) -> Term | None:
         change: The clause in plain words.
     """
     change = _FROM_HERE.sub("", _LET.sub("", _EXACTLY.sub("", change)))
-    for reader in (_topped, _gripped, _moved, _multiplied, _altered):
+    for reader in (_heavier, _topped, _gripped, _moved, _multiplied, _altered):
         if term := reader(asked, change):
             return term
     return None
+
+
+def _heavier(asked: AskedWords, change: str) -> Term | None:
+    """The told mass many times over, or with so much on it."""
+    if (found := _STUCK.fullmatch(change)) and (load := asked.term(found["b"])):
+        return _by(usual("mass"), "+", load) if load.dimension == "mass" else None
+    times = _HEAVIER.fullmatch(change)
+    if times is None and (_SECOND.fullmatch(change) is None or "#" in change):
+        return None
+    said = (times["n"] or times["m"]) if times else "twice"
+    factor = next((n for n, named in _TIMES_MORE.items() if re.fullmatch(named, said)), "")
+    count = asked.term(said.removesuffix(" times")) if not factor else None
+    factor = count.expression if count else factor
+    return replace(usual("mass"), expression=f"{factor} * mass_g", words="") if factor else None
 
 
 def _topped(asked: AskedWords, change: str) -> Term | None:
@@ -311,7 +357,8 @@ def _multiplied(asked: AskedWords, change: str) -> Term | None:
             is_deep = (
                 is_deep or re.search(r"\b(?:deep|depth|indentation)\b", asked.words) is not None
             )
-            term = usual("length" if is_deep else "force")
+            is_heavy = change.endswith(" heavy")
+            term = usual("mass" if is_heavy else "length" if is_deep else "force")
         if term:
             return replace(term, expression=f"{factor} * {term.factor}", words=found["a"])
     return None

@@ -14,7 +14,7 @@ from dataclasses import replace
 
 from tacgrasp.lessons.dialogue.calculations.asked import AskedWords, usual
 from tacgrasp.lessons.dialogue.calculations.phrases import EXCEEDS, MOVES, REACHES
-from tacgrasp.lessons.dialogue.calculations.quantity_names import UNIT, is_band
+from tacgrasp.lessons.dialogue.calculations.quantity_names import THING, UNIT, is_band
 from tacgrasp.lessons.dialogue.calculations.terms import Term, alike
 from tacgrasp.lessons.dialogue.meaning import Calculated
 
@@ -24,7 +24,7 @@ _ADVERB = (
     r"right now|at the moment|any|clearly|surely|perhaps|have|has|had|been)"
 )
 _BE = (
-    r"(?:(?:be|is|are|am|was|were|lie|lies|lying|sit|sits|sitting|land|landing|stay|stays|staying|"
+    r"(?:(?:be|being|is|are|am|was|were|lie|lies|lying|sit|sits|sitting|land|landing|stay|stays|staying|"
     r"stand|stands|come out|end up|ending up|comes? to|amounts? to|come|coming|remain|remains|"
     r"remaining|get|getting|go|"
     r"going|fall|falls|falling|drop|dropping|keep|keeping|"
@@ -46,12 +46,13 @@ _COMPARED = tuple(
         ),
         (
             ">",
-            r"(?:more|greater|larger|higher|bigger|heavier|deeper|stronger|further|"
-            rf"farther)(?: in size)? than|above|over|beyond|past|in excess of|{EXCEEDS}",
+            r"(?:more|greater|larger|higher|bigger|heavier|deeper|stronger|further|firmer|tighter|"
+            rf"harder|farther)(?: in size)? than|above|over|beyond|past|in excess of|{EXCEEDS}",
         ),
         (
             "<",
-            r"(?:less|smaller|lower|lighter|shallower|weaker|nearer|fewer) than|below|under|"
+            r"(?:less|smaller|lower|lighter|shallower|weaker|nearer|fewer|gentler|softer|feebler|"
+            r"looser) than|below|under|"
             r"short of|falls? short of|beneath|undercuts?|(?:fail(?:ed|s)? to|not|does not) reach",
         ),
     )
@@ -66,6 +67,12 @@ _PUSHED = re.compile(
     r"(?:we|you|i|it|the gripper)(?: are| is)? (?:us|spend|tak)(?:ing|es?|en)(?: up)? over"
 )
 _OUTWEIGHS = re.compile(r"\boutweighs? (?=(?:the |this |that )?(?:object|thing|item|berry|part)\b)")
+_WEIGHS = re.compile(
+    rf"^(?:(?:it|(?:the|this|that|our) {THING}) (?:weigh|pull|pull down)(?: (?:with|surely|"
+    rf"really))* |"
+    rf"gravity (?:pull|tug|act) (?:down )?(?:on|at) (?:it|(?:the|this|that|our) {THING}) with )"
+    r"(?:a force )?(?:of )?(?=(?:more|less|above|below|over|under|at least|at most|between)\b)"
+)
 _AMOUNT = r"(?:(?P<more>more than|over)|(?P<fewer>less than|under)|at least)"
 _SIDES = (
     r"(?:(?P<up>exceeds?|clears?|above|over|beyond|(?:greater|larger|higher|more|heavier|"
@@ -242,6 +249,7 @@ def condition_of(asked: AskedWords, words: str) -> str | None:
         words = f"force {found['sign']} than {found['b']}"
     words = _PUSHED.sub("force more than", words)
     words = _OUTWEIGHS.sub("exceed the weight of ", words)
+    words = _WEIGHS.sub("weight ", words)
     if found := _NEARER.fullmatch(words):
         pairs = [
             _pair(asked, found["a"], each) for each in shared_noun(asked, found["b"], found["c"])

@@ -108,6 +108,11 @@ _FACTOR = re.compile(
 _MANY_THINGS = re.compile(
     rf"\bhow many (?:of (?:them|these|those|such)|#1 |(?!(?:{UNIT})\b)#?[a-z]+)"
 )
+_HELD_AT_ONCE = re.compile(
+    rf"how many (?:whole )?(?:of (?:these|those) )?#1 (?:{UNIT}) (?:[a-z]+ "
+    rf")?(?P<rest>(?=.*\b{_HOLD}\b)"
+    r"(?:can|could|would|will|may|might|does|do|is|are) .+)"
+)
 _EQUALS = re.compile(
     r"\b(?:equals?|equalling|match(?:es)?|as (?:thick|heavy|deep|much|hard) as|stack(?:ed)?|"
     r"weights?|"
@@ -123,10 +128,16 @@ def as_many_as(asked: AskedWords) -> Term | None:
     'How many 0.1 mm sheets, stacked, equal the depth?'
     """
     words = asked.words
-    if asked.unit or not (_MANY_THINGS.search(words) and _EQUALS.search(words)):
+    if asked.unit or not _MANY_THINGS.search(words):
         return None
     each = asked.only_value()
     if each is None or re.search(r"\b(?:limit|band|area|pad)\b", words):
+        return None
+    if each.dimension == "mass" and (held := _HELD_AT_ONCE.fullmatch(words)):
+        if is_made_of(held["rest"], rf"(?:{_FILL}|{_SURE}|{_HOLD}|{_FORCE}|{_LOAD}|once)"):
+            return Term(expression=f"holds_g / {each.divisor}", dimension=PLAIN, words="")
+        return None
+    if not _EQUALS.search(words):
         return None
     if each.dimension == "length" and _OF_DEPTH.search(words):
         return Term(expression=f"depth_mm / {each.divisor}", dimension=PLAIN, words="")
@@ -178,6 +189,24 @@ def needed(asked: AskedWords) -> Term | None:
             )
         return Term(expression=expression, dimension="force", words="")
     return None
+
+
+def load_amount(asked: AskedWords) -> Calculated | None:
+    """The force that a supposed mass needs; None where that is not asked."""
+    if (
+        asked.subject is None
+        or asked.subject.dimension != "mass"
+        or asked.unit not in ("", "N", "mN")
+    ):
+        return None
+    words = re.sub(
+        rf"\b(?:it|them|that|both|the (?:pair|two|both|lot|{THING}))\b", "it", asked.words
+    )
+    words = re.sub(r"\b(?:makes?|against)\b ?", "", words)
+    is_force = asked.unit or re.search(rf"\b{_FORCE}\b", words)
+    if not is_force or not re.match(r"(?:what|which|how)\b", words) or not _is_needed(words):
+        return None
+    return Calculated(truth=f"gram_n * {asked.subject.factor}", unit=asked.unit or "N")
 
 
 def safety_factor(asked: AskedWords) -> Term | None:
@@ -244,7 +273,7 @@ def _holds_it(asked: AskedWords, mass: Term) -> Calculated | None:
     used = rf"(?:{_FILL}|{_SURE}|{_HOLD}|{_LOAD}|{_FORCE}|{THING})"
     if re.search(r"\b(?:slip|slips|slipping|drop|dropping|fail|risk|not|too)\b", asked.words):
         return None
-    if not re.search(rf"\b(?:{_SURE}|hold|carry|enough)\b", asked.words):
+    if not re.search(rf"\b(?:{_SURE}|hold|held|kept|carry|carried|enough)\b", asked.words):
         return None
     if not is_made_of(asked.words, used):
         return None
@@ -261,17 +290,28 @@ _SUFFICES = re.compile(
     r"(?:would|will|is|are|does|do|can|could) (?:a |the )?(?:grip of |force of )?(?P<force>.+?) "
     r"(?:(?:be |really )?(?P<enough>enough|sufficient)|suffice|do)"
     rf"(?: (?:to|for)(?: (?:us|me|you))?(?: {_SURE})?(?: {_HOLD})?(?: {_SURE})?(?: up)? ?"
-    rf"(?:it|this|that|them|(?:the |this |that )?{THING})(?: {_SURE}| for sure)?)"
+    rf"(?:it|this|that|them|(?:the |this |that )?{THING}|(?P<mass>.+?))(?: {_SURE}| for sure)?)"
+)
+_LEAVES_ENOUGH = re.compile(
+    rf"(?:would|will|does|do|can) (?P<force>.+?) (?:leave|give|allow|offer|provide) (?:me |us |"
+    rf"you )?"
+    rf"(?P<enough>enough|sufficient)(?: (?:room|force|headroom|grip|slack))? (?:for|to(?: "
+    rf"{_SURE})? "
+    rf"{_HOLD}) (?P<mass>.+?)(?: {_SURE}| for sure)?"
 )
 
 
 def suffices(asked: AskedWords) -> Calculated | None:
     """Whether a named force surely holds the object; None of other questions."""
-    found = _SUFFICES.fullmatch(asked.words)
+    found = _SUFFICES.fullmatch(asked.words) or _LEAVES_ENOUGH.fullmatch(asked.words)
     force = asked.term(found["force"]) if found else None
-    if force is None or force.dimension != "force" or force.expression == "force_n":
+    if found is None or force is None or force.dimension != "force":
         return None
-    return Calculated(truth=f"{force.expression} >= gram_n * mass_g", unit=None)
+    mass = asked.term(found["mass"]) if found["mass"] else usual("mass")
+    is_plain = force.expression == "force_n" and not found["mass"]
+    if is_plain or mass is None or mass.dimension != "mass" or mass.expression == "holds_g":
+        return None
+    return Calculated(truth=f"{force.expression} >= gram_n * {mass.factor}", unit=None)
 
 
 _ALLOWED = re.compile(

@@ -65,6 +65,19 @@ _NEVER = (
     r"(?:never|not)(?: (?:to|ever))?(?: (?:be|get))?(?: (?:exceed|exceeded|cross|crossed|pass|"
     r"passed|break|broken|violate|violated|overstep|overstepped|go over|go past|surpass|surpassed))"
 )
+_PAD = (
+    r"(?:(?:whole|entire|full|complete|sensing|sensor|gel|touch|tactile) )*(?:pad|sensor|gel|skin|"
+    r"sensing (?:area|surface|window))"
+)
+_AS_TOLD = (
+    r"(?: (?:that )?(?:(?:was |were |has been )?(?:told|stated|given|agreed|entered|declared)|"
+    r"(?:you|we|i) (?:(?:were|was|are|am|have|been) )*(?:know|told|given|said|entered|agreed)"
+    r"(?: (?:you|me|us|on|about|of|before))*))"
+)
+_AGREED = (
+    r"(?:(?: that| which)?(?: (?:we|you|i|they))?(?: (?:have|had|has been|is|was))? (?:agreed|"
+    r"settled|decided|wanted?|desired|asked)(?: (?:on|upon|for))?)"
+)
 _SURELY = (
     r"(?:sure|sure hold|sure holding|surely held|surely holdable|guaranteed|certain|safe|secure|"
     r"safely held|safe working|sure carrying)"
@@ -83,10 +96,11 @@ _NAMED: Mapping[str, tuple[str, str]] = {
     rf"(?:{_LIMIT})(?: {_NEVER})?": ("limit_n", "force"),
     rf"(?:force|value|grip|figure|number|mark|line|squeeze) {_NEVER}": ("limit_n", "force"),
     _ends(_LOW): ("band_low_n", "force"),
-    r"(?:agreed|wanted|required|requested|desired) (?:minimum|min)(?: force)?": (
-        "band_low_n", "force",
+    r"(?:agreed|wanted|required|requested|desired) (?:minimum|min)(?: force)?|"
+    rf"(?:least|lowest|smallest|minimum|weakest){_FORCE}{_AGREED}": ("band_low_n", "force"),
+    rf"{_ends(_HIGH)}|(?:most|highest|largest|strongest){_FORCE}{_AGREED}": (
+        "band_high_n", "force",
     ),
-    _ends(_HIGH): ("band_high_n", "force"),
     rf"{_MIDDLE} of (?:the |our )?{_BAND_NAME}|{_BAND_NAME}(?:'s)? {_MIDDLE}": (
         "(band_low_n + band_high_n) / 2", "force",
     ),
@@ -122,7 +136,15 @@ _NAMED: Mapping[str, tuple[str, str]] = {
     ),
     rf"(?:radial )?(?:distance|offset)(?: of (?:the )?(?:contact|{_THING}))? (?:from|to) "
     r"(?:the )?(?:pad )?(?:middle|center)(?: of (?:the )?pad)?": ("hypot(x_mm, y_mm)", "length"),
-    rf"(?:stated |told )?mass{_OF_THING}?|{_THING}(?:'s)?(?: own)? mass": ("mass_g", "mass"),
+    rf"(?:(?:stated|told|agreed|given|declared|entered|known) )?mass{_OF_THING}?{_AS_TOLD}?|"
+    rf"{_THING}(?:'s)?(?: own)? mass{_AS_TOLD}?": ("mass_g", "mass"),
+    rf"{_PAD}(?:'s)? (?:width|breadth)|(?:width|breadth) of (?:the )?{_PAD}": (
+        "pad_width_mm", "length",
+    ),
+    rf"{_PAD}(?:'s)? height|height of (?:the )?{_PAD}": ("pad_height_mm", "length"),
+    rf"{_PAD}(?:'s)? diagonal|diagonal of (?:the )?{_PAD}": (
+        "hypot(pad_width_mm, pad_height_mm)", "length",
+    ),
     r"(?:payload|carrying capacity|holding capacity|heaviest load|load it holds)|"
     rf"(?:maximum |max |heaviest |largest |most )?{_SURELY} {_HELD}|"
     rf"(?:maximum |max |heaviest |largest )?{_HELD} (?:that )?(?:(?:it|we|i|you|the grip|"
@@ -146,10 +168,7 @@ _NAMED: Mapping[str, tuple[str, str]] = {
     r"(?:(?:you|us|me|it|the gripper) )?(?:(?:to )?(?:apply|use|exert|press with|put on|"
     r"squeeze with))?"
     r"(?: at (?:the )?(?:very )?most)?": ("limit_n", "force"),
-    r"(?:needed|required|necessary) force|force (?:that is )?(?:needed|required)(?: to hold "
-    r"it)?|"
-    r"(?:what|(?:the )?(?:force|grip)(?: that)?) (?:it|the (?:object|thing)|(?:its|the object's|"
-    r"the (?:given|told)) mass) needs|what is (?:needed|required)(?: (?:for|to hold) it)?": (
+    r"(?:needed|required|necessary) force|what is (?:needed|required)(?: (?:for|to hold) it)?": (
         "gram_n * mass_g", "force",
     ),
 }  # fmt: skip
@@ -172,13 +191,22 @@ WEIGHT = re.compile(
     r"weight of (?:the|this|that|our|my) (?!(?:force|grip|squeeze|limit|band|depth|area|contact|"
     r"touch|pad|gel|press|gripper|robot|hand)\b)[a-z]+(?: as a force)?|"
     rf"(?:lifted |held |gripped )?{_THING}(?:'s)?(?: own)? weight|what {_BODY} weighs|"
-    rf"(?:lifted|held|gripped|carried) {_THING}|{_THING} (?:that |which )?{_LIFTED}"
+    rf"(?:lifted|held|gripped|carried) {_THING}|{_THING} (?:that |which )?{_LIFTED}|"
+    rf"gravity's pull(?: (?:on|at) {_BODY})?|(?:pull|force) of gravity(?: (?:on|at) {_BODY})?"
 )
 """Names of the mass that are asked for in newtons too."""
 
 _BAND = re.compile(rf"(?:(?:the|our|this|whole of|all of|whole|entire) )*{_BAND_NAME}")
 
 _UNIT_WORDS: Mapping[str, str] = {
+    r"kgf|(?:kg|kilos?|kilograms?) (?:of )?force": "kgf",
+    r"lbf|(?:pounds?|lbs?) (?:of )?force": "lbf",
+    r"ozf|(?:ounces?|oz) (?:of )?force": "ozf",
+    r"(?:g|grams?) (?:of )?force": "g",
+    r"pounds|lbs": "lb",
+    r"ounces|oz": "oz",
+    r"inch(?:es)?": "in",
+    r"thou|mils": "thou",
     r"(?:n|newtons?) per (?:cm²|(?:square|sq) (?:cm|centimet(?:re|er)s?))": "N/cm²",
     r"(?:n|newtons?) per (?:mm2|mm²|(?:square|sq) (?:mm|millimet(?:re|er)s?))": "N/mm²",
     **SPELLED,

@@ -13,6 +13,7 @@ import re
 from dataclasses import replace
 
 from tacgrasp.lessons.dialogue.calculations.asked import AskedWords, usual_unit
+from tacgrasp.lessons.dialogue.calculations.checks import shared_noun
 from tacgrasp.lessons.dialogue.calculations.phrases import ABOVE, BELOW, IS, PARTS
 from tacgrasp.lessons.dialogue.calculations.quantity_names import UNIT, unit_of
 from tacgrasp.lessons.dialogue.calculations.terms import PLAIN, Term
@@ -40,6 +41,9 @@ _SHARES = tuple(
         rf"(?:what is |how much is )?(?P<a>.+) (?:as|in|expressed as) (?:an? )?{PARTS} of "
         rf"(?P<b>.+)",
         r"(?:what is |how much is )?(?P<a>.+) relative to (?P<b>.+)",
+        rf"(?:taking|with|if|counting|calling|setting|say|let) (?P<b>.+?) (?:as|is|to be|at|be|"
+        rf"counts "
+        rf"as) (?P<n>#\d+) percent (?:what|which|how many) {PARTS} {IS} (?P<a>.+?)(?: at)?",
         rf"what (?:does|do|would) (?P<a>.+) (?:come|amount) to (?:as|in) (?:an? )?{PARTS} "
         rf"of (?P<b>.+)",
     )
@@ -48,7 +52,12 @@ _RATIOS = tuple(
     re.compile(pattern)
     for pattern in (
         r"how many times(?: \w+)? (?:is|are) (?P<a>.+) (?:than|as|of) (?P<b>.+)",
-        r"how many times (?:does|do) (?P<b>.+) (?:fit|go) (?:in|into) (?P<a>.+)",
+        r"how many times(?: over)? (?:does|do|could|can|would|will|might) (?P<b>.+) (?:fit|go) "
+        r"(?:in|into|inside) (?P<a>.+)",
+        r"how many times(?: over)? (?:is|are) (?P<b>.+?) (?:covered|contained|exceeded|matched|"
+        r"outweighed|met|carried|borne) (?:by|in) (?P<a>.+)",
+        r"how many times over (?:does|do|would) (?P<a>.+?) (?:hold|carry|cover|exceed|bear) "
+        r"(?P<b>.+)",
         r"(?:(?:what|how much) (?:do|would) (?:you|we|i) (?:get|have) (?:if|when) (?:you|we|i) "
         r")?divide "
         r"(?P<a>.+) by (?P<b>.+)",
@@ -56,7 +65,8 @@ _RATIOS = tuple(
         r"as) )?)?"
         r"(?P<a>.+) divided by (?P<b>.+?)(?: (?:so |and )?(?:that |it )?(?:what |is |makes |gives |"
         r"do |"
-        r"does |you |get |equals )*(?:what|makes|get|is|gives))?",
+        r"does |you |get |equals )*(?:what|makes|get|is|gives)| (?:what|which) (?:ratio|quotient|"
+        r"factor|number)\b.*)?",
         r"(?:what is |the )*ratio (?:of|between) (?P<a>.+) (?:to|and) (?P<b>.+)",
         r"(?:what is |the )*(?P<a>[a-z]+(?: force)?) to (?P<b>[a-z]+(?: force)?) ratio"
         r"(?: (?:for|of|with) (?:the )?(?:lifted |held )?(?:mass|object|load|part|payload))?",
@@ -98,7 +108,8 @@ _THICK = re.compile(
     rf"which) {PARTS} of (?:it|that|this|the (?:thickness|gel))\b.*"
 )
 _STIFFNESS = re.compile(
-    r"(?:(?:give|tell|state|what|is|are|me|how|many|the|that|work|find|now|please) )*"
+    r"(?:(?:give|tell|state|what|is|are|me|how|many|the|that|it|work|find|now|please|does|come|"
+    r"to) )*"
     r"(?:n|newtons?) per (?:mm|millimet(?:re|er)s?) of (?:indentation|depth|dent|penetration|"
     r"travel)"
     r"(?: (?:do|does|is|are|we|you|it|there|work|that|ratio|out|figure|from|what|sense|feel|get|"
@@ -125,6 +136,9 @@ def share(asked: AskedWords) -> Term | None:
     """A term as a share of another one."""
     for pattern in _SHARES:
         found = pattern.fullmatch(asked.words)
+        whole = asked.term(found["n"]) if found and "n" in found.groupdict() else None
+        if whole and whole.expression != "100":
+            continue
         if found and (pair := asked.pair(found["a"], found["b"])):
             a, b = pair
             if asked.is_ratio:
@@ -139,7 +153,8 @@ def ratio(asked: AskedWords) -> Term | None:
     """How many times a term another one is, by how many percent it exceeds it, and a product."""
     for pattern in _RATIOS:
         found = pattern.fullmatch(asked.words)
-        if found and (pair := asked.pair(found["a"], found["b"])):
+        named = shared_noun(asked, found["a"], found["b"]) if found else None
+        if named and (pair := asked.pair(*named)):
             return Term(
                 expression=f"{pair[0].factor} / {pair[1].divisor}", dimension=PLAIN, words=""
             )
@@ -180,7 +195,9 @@ def stiffness(asked: AskedWords) -> Term | None:
     if _STIFFNESS.fullmatch(words):
         return Term(expression="force_n / depth_mm", dimension="N/mm", words="")
     if each := _FOR_EACH.search(words):
-        one = unit or next((unit_of(found[1]) for found in _MANY.finditer(words)), "")
+        one = unit.partition("/")[0] or next(
+            (unit_of(found[1]) for found in _MANY.finditer(words)), ""
+        )
         unit = f"{one}/{unit_of(each[1])}"
     elif not unit and (named := re.search(r"\b(?:stiffness|compliance)\b", words)):
         unit = "N/mm" if named[0] == "stiffness" else "mm/N"

@@ -19,7 +19,7 @@ from tacgrasp.lessons.dialogue.calculations.amounts import amount_of, calculated
 from tacgrasp.lessons.dialogue.calculations.asked import AskedWords
 from tacgrasp.lessons.dialogue.calculations.changes import changed
 from tacgrasp.lessons.dialogue.calculations.checks import calculated_check, condition_of
-from tacgrasp.lessons.dialogue.calculations.loads import stays, sure_to_hold
+from tacgrasp.lessons.dialogue.calculations.loads import load_amount, stays, sure_to_hold
 from tacgrasp.lessons.dialogue.calculations.phrases import is_made_of
 from tacgrasp.lessons.dialogue.calculations.quantity_names import UNIT
 from tacgrasp.lessons.dialogue.calculations.terms import Term
@@ -136,6 +136,13 @@ _OF_FORCE = re.compile(r"\b(?:force|grip|squeeze|hard|pressing|squeezing|grippin
 _OF_DEPTH = re.compile(r"\b(?:depth|deep|indentation|dent)\b")
 
 
+_ANOTHER_MASS = re.compile(
+    rf"(?:(?:[a-z]+ing|for|with|take|say|suppose|imagine|assume|next|now|then|of|make it|"
+    rf"consider) )*"
+    rf"(?:(?:an?|the|one|some|my|this|that) )?(?P<mass>#\d+ (?:{UNIT}))(?: (?:of )?(?!(?:more|less|"
+    r"extra|is|are|or|and|on|off|of)\b)[a-z]+){0,3}?(?: (?:instead|next|now|then|up))* "
+    r"(?P<rest>(?:what|how|is|are|would|will|could|can|does|do) .+)"
+)
 _SAFE = re.compile(
     r"(?:is|would|will) (?:it|that|this|(?:the|a) (?:lift|grip))(?: (?:still|then|now))? (?:be )?"
     r"(?:safe|ok|okay|fine)(?: to (?:lift|pick up|raise|hoist)(?: it)?)?\b"
@@ -167,10 +174,22 @@ def supposed(asked: AskedWords) -> Calculated | None:
             return None if is_other else amount_of(told, after)
         found = stays(after) or calculated_check(after) or calculated_amount(after)
         found = found or calculated_check(asked.about(told, f"is it {rest}", base))
-        found = found or sure_to_hold(after)
+        found = found or sure_to_hold(after) or sure_to_hold(replace(after, words=f"is it {rest}"))
+        found = found or load_amount(after)
         if found and told.expression in found.truth:
             return found
-    return None
+    return _of_another(asked)
+
+
+def _of_another(asked: AskedWords) -> Calculated | None:
+    """What a question asks about another mass, which it names first: 'a 60 g pear, then: ...'."""
+    if (found := _ANOTHER_MASS.fullmatch(asked.words)) is None:
+        return None
+    mass = asked.term(found["mass"])
+    if mass is None or mass.dimension != "mass":
+        return None
+    after = asked.about(mass, found["rest"])
+    return sure_to_hold(after) or load_amount(after)
 
 
 def begins_supposed(question: str) -> bool:

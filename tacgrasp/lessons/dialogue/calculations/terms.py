@@ -93,8 +93,8 @@ _TRAILING = re.compile(
     r"instead|today|itself|as felt|as measured|in size|value|figure|reading|"
     r"on (?:the )?(?:pad|gel)|(?<=\w )(?:mark|line|threshold)|"
     r"(?<!what )(?:that )?(?:you|we|i)(?: are| am)? "
-    r"(?:feel|have|read|see|press|apply|measur|us|squeez|exert)(?:e|"
-    r"ing)?(?: (?:with|now|there|here|on it))*|(?:that )?(?:the (?:gel|pad|skin)|it) "
+    r"(?:feel|have|read|see|press|apply|measur|us|squeez|exert|gripp?|hold|pinch|clamp)(?:e|"
+    r"ing)?(?: (?:with|now|there|here|on it|it|it with))*|(?:that )?(?:the (?:gel|pad|skin)|it) "
     r"(?:can|could|may|will) (?:take|go|do|bear|give|squish|stand|offer|be pressed(?: in)?)|"
     r"(?:that )?(?:they|you|we|i|he|she) (?:set|gave|told|allowed|agreed on)(?: (?:you|me|us|"
     r"it))?))+$"
@@ -112,6 +112,25 @@ _MASS_OF = re.compile(
     r"\w+(?:er|ed|ly|ing))$)[a-z]+"
 )
 """A mass with whatever has it: 'a 20 g nut'."""
+
+_HOLDING = r"(?:hold|keep|carry|lift|bear|support|secure)"
+_SURE = r"(?:surely|safely|certainly|definitely|reliably|for sure|for certain)"
+_NEEDED = re.compile(
+    r"(?:(?:the |that )?(?:(?:least|minimum|smallest|lowest) )?(?:force|grip|squeeze)(?: (?:that|"
+    r"which))?|what) (?:"
+    rf"(?P<a>.+?) (?:needs?|requires?|takes|demands|calls for|asks for)(?: to be (?:{_SURE} "
+    rf")?held)?|"
+    rf"(?:would |will )?(?:(?:be )?(?:sure|certain|enough) to |{_SURE} )?{_HOLDING}s? (?P<b>.+?)|"
+    rf"(?:is |would be )?(?:needed|required|necessary) (?:to (?:{_SURE} )?{_HOLDING}|for|by) "
+    rf"(?P<c>.+?))"
+    rf"(?: {_SURE})?"
+)
+"""The force that surely holds a mass: 'the grip that 60 g need'."""
+
+_BODY = re.compile(
+    rf"(?:(?:the|this|that|our|its|my) )?(?:(?:told|stated|held|lifted|gripped) )?{THING}|it|them"
+)
+"""What is held, whose mass a force holds."""
 
 _SUCH = re.compile(
     rf"(#\d+) (?:of (?:these|them|those)(?: {THING}s?)?|such {THING}s?|(?:pieces|objects|items|"
@@ -210,6 +229,13 @@ def _quantity(words: str, numbers: tuple[float, ...]) -> Term | None:
     if count := _SUCH.fullmatch(words):
         times = number_text(numbers[int(count[1][1:]) - 1])
         return Term(expression=f"{times} * mass_g", dimension="mass", words=words)
+    if needed := _NEEDED.fullmatch(words):
+        load = next(filter(None, needed.groups()))
+        mass = "mass_g" if _BODY.fullmatch(load) else ""
+        if not mass and (term := _read(load, numbers)) and term.dimension == "mass":
+            mass = term.factor
+        if mass and mass != "holds_g":
+            return Term(expression=f"gram_n * {mass}", dimension="force", words=words)
     if WEIGHT.fullmatch(words):
         return Term(expression="mass_g", dimension="mass", words=words, is_weight=True)
     for pattern, expression, dimension in NAMED:

@@ -52,17 +52,20 @@ _IN_PAST = re.compile(r"\b(?:was|were|did|had|has|have|been|used to)\b|\bago\b")
 _IN_FUTURE = re.compile(r"\b(?:will|shall|going to|gonna)\b|['’]ll\b")
 _CLAUSES = re.compile(r"[.,;:!?–—]+(?!\d)|\s-\s")
 _ASKING = re.compile(
-    r"(?:(?:and|but|so|now|or|then|also|tell me|roughly) )*(?:by how|to what|with what|at what|what|"
+    r"(?:(?:and|but|so|now|or|then|also|tell me|roughly) )*(?:by how|to what|with what|at what|"
+    r"what|"
     r"how|which|where|when|will|was|were|did|had|has|have|is|are|does|do)\b"
 )
 _OTHER = r"(?:other|opposite|opposing|second|partner|far)"
 _OTHER_FINGER = re.compile(
     rf"\b{_OTHER} (?:finger|fingertip|jaw|gel|gel pad|sensor|pad)\b"
-    r"(?! (?:\w+ )?(?:edge|side|border|rim|end|half|corner|exerts?|presses|pushes|takes?|gives?|may|"
+    r"(?! (?:\w+ )?(?:edge|side|border|rim|end|half|corner|exerts?|presses|pushes|takes?|gives?|"
+    r"may|"
     r"might|carries|helps|does))(?!'s (?:edge|side))"
 )
 _OF_BOTH = re.compile(
-    r"\b(?:sum|both|together|total|altogether|combined|two fingers|same|equal\w*|identical|alike|if|"
+    r"\b(?:sum|both|together|total|altogether|combined|two fingers|same|equal\w*|identical|alike|"
+    r"if|"
     r"suppose|assum\w+|half)\b"
 )
 _GROUND = r"(?:table|floor|ground|bench|desk|conveyor|belt|tray|bin|wall|door|shelf|room)"
@@ -71,10 +74,10 @@ _NEARBY = re.compile(
     rf"under|across|on|is|does) the {_GROUND}\b"
 )
 _AGE = re.compile(
-    rf"\bhow old\b|\bwhen (?:was|were|did|has) (?:(?:the|this|that|your|our|its) )?(?:\w+ ){{1,3}}"
+    r"\bhow old\b|\bwhen (?:was|were|did|has) (?:(?:the|this|that|your|our|its) )?(?:\w+ ){1,3}"
     r"(?:made|built|changed|replaced|exchanged|installed|fitted|calibrated|cleaned|serviced|"
     r"bought|delivered)\b|"
-    rf"\b(?:in|how many) (?:seconds|minutes|hours|days|weeks|months|years)\b"
+    r"\b(?:in|how many) (?:seconds|minutes|hours|days|weeks|months|years)\b"
 )
 
 

@@ -26,7 +26,7 @@ from tacgrasp.lessons.dialogue.rules.unread import is_beyond
         ("Could I trouble you for the depth?", "give me the depth?"),
         ("Give me the force, so I may put it into the report", "Give me the force"),
         ("Is it over 0.5 pounds?", "is it over 226.8 grams?"),
-        ("Is it over 0.05 kgf?", "is it over 50 grams?"),
+        ("Is it over 0.05 kgf?", "is it over 0.4903 newtons?"),
         ("Is it over 0.001 kN?", "is it over 1 newtons?"),
         ("Is it deeper than 10 thou?", "is it deeper than 0.254 mm?"),
         ("Is it deeper than 0.1 m?", "is it deeper than 100 mm?"),
