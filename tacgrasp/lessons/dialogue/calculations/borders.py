@@ -18,7 +18,7 @@ import re
 from collections.abc import Mapping
 
 from tacgrasp.lessons.dialogue.calculations.asked import AskedWords
-from tacgrasp.lessons.dialogue.calculations.phrases import AGAINST, is_made_of, sign_of
+from tacgrasp.lessons.dialogue.calculations.phrases import AGAINST, PARTS, is_made_of, sign_of
 from tacgrasp.lessons.dialogue.calculations.quantity_names import UNIT
 from tacgrasp.lessons.dialogue.calculations.terms import PLAIN, Term
 from tacgrasp.lessons.dialogue.meaning import Calculated
@@ -166,7 +166,7 @@ _CLOSER_TO = re.compile(
     rf"{_NAMED_SIDE.format('b')}"
 )
 _ACROSS = re.compile(
-    rf"(?=.*\b(?:percent|percentage|share|fraction|far)\b)(?:.*\bof the way|.*\bhow far) (?:across|"
+    rf"(?:.*\bof the way|.*\bhow far) (?:across|"
     rf"along|over|up|down)\b(?!.*#).*\bfrom (?:the )?(?:{_PAD}'s )?"
     rf"(?P<side>{'|'.join(said for said, _ in _SIDES.values())})\b"
 )
@@ -184,7 +184,8 @@ def to_border(asked: AskedWords) -> Term | None:
     if _PAD_AREA.fullmatch(asked.words):
         return Term(expression="pad_width_mm * pad_height_mm", dimension="area", words="")
     words = _PAD_SIZE.sub("", asked.words)
-    if across := _ACROSS.search(words):
+    is_share = asked.unit == "%" or re.search(rf"\b{PARTS}\b", words)
+    if is_share and (across := _ACROSS.search(words)):
         side = _side_named(across["side"])
         size = "pad_width_mm" if side in ("left", "right") else "pad_height_mm"
         share = f"100 * ({_SIDES[side][1]}) / {size}"

@@ -68,6 +68,7 @@ def test_a_load_and_a_ratio_are_calculated(question, truth):
          "min(pad_width_mm / 2 - abs(x_mm), pad_height_mm / 2 - abs(y_mm))"),
         ("What percentage of the way up the pad is it, from the bottom?",
          "100 * (pad_height_mm / 2 + y_mm) / pad_height_mm"),
+        ("How far up from the bottom edge is the print, in mm?", "pad_height_mm / 2 + y_mm"),
         ("Is the print nearer to the right rim or to the top rim?",
          "'right' if pad_width_mm / 2 - x_mm < pad_height_mm / 2 - y_mm else 'top'"),
         ("How wide is that sensing window?", "pad_width_mm"),
