@@ -71,12 +71,22 @@ _ALL = re.compile(r"\b(?:both|at once|at the same time|and|as well as|plus)\b")
 _OR_BOTH = re.compile(r"\b(?:or|and) (?:perhaps |maybe |even |possibly )?(?:at )?both\b")
 _DENIED = re.compile(r"\b(?:not|no part|nothing|never|free of|clear of|neither|nor)\b")
 
+_FREE_OF_CUTS = re.compile(
+    r"(?:is|are) (?:it|(?:the|this|our) (?:contact|object|imprint|patch|print|touch)) (?:free|"
+    r"clear) of "
+    r"(?:any |all )?(?:cut|clip|crop|truncat|chop)\w*(?: offs?)?"
+    rf"(?: (?:by|at|on|from) (?:the|an|any) (?:{_PAD} |{_PAD}'s )?{_EDGE}"
+    rf"(?: of (?:the|our|your) {_PAD})?)?"
+)
+
 
 def edge_query(words: str) -> str:
     """The query of a question about an edge, in plain words; '' of any other question."""
     words = _TAG_RIGHT.sub("", words)
     if _WHICH.search(words) and _IS_CUT.search(words):
         return "word cut_sides."
+    if _FREE_OF_CUTS.fullmatch(words):
+        return "check not cut."
     if _NO_PAD.search(words):
         return ""
     if "#" in words or _OPEN.search(words) or _MOVES.search(words) or _COMPARED.search(words):

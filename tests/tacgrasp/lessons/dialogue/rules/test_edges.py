@@ -21,6 +21,7 @@ from tests.fakes.question_scenes import ASIDE, HELD, UNTOUCHED, contact
         ("Does it stick out on the palm side?", "check cut top."),
         ("has the contact run over the tip end", "check cut bottom."),
         ("It doesn't touch the left rim?", "check not cut left."),
+        ("Is the print clear of any clipping at the rim?", "check not cut."),
         ("Does it touch the left or the right edge?", "calculate cut_left or cut_right."),
         (
             "Is it cut on the right-hand side or at the bottom (or both)?",
