@@ -17,6 +17,7 @@ from __future__ import annotations
 
 import re
 
+from tacgrasp.lessons.dialogue.calculations.quantity_names import THING
 from tacgrasp.lessons.dialogue.clauses.unfelt import is_off_topic, names_touch
 from tacgrasp.lessons.dialogue.meaning import Meaning
 from tacgrasp.lessons.dialogue.query import read_query
@@ -35,7 +36,11 @@ _HISTORY = re.compile(
 _NOW = re.compile(r"\d+ ?(?:g|grams?|kg)\b.*\b(?:ever|always)\b")
 _UNITS_OF_TIME = r"(?:seconds?|minutes?|hours?|days?|nights?|weeks?|months?|years?|shifts?)"
 _WEEKDAY = r"(?:(?:mon|tues|wednes|thurs|fri|satur|sun)day)"
-_SPAN = rf"(?:an?|one|two|three|a few|several|some|half an?|#|\d+) {_UNITS_OF_TIME}"
+_SPAN = (
+    r"(?:an?|one|two|three|four|five|six|ten|fifteen|twenty|thirty|a few|several|some|half an?|"
+    r"\d+) "
+    rf"{_UNITS_OF_TIME}"
+)
 _BEFORE = re.compile(
     rf"\b(?:{_SPAN} (?:ago|earlier|before (?:this|now))|yesterday|last (?:{_UNITS_OF_TIME}|time|"
     rf"{_WEEKDAY}|spring|summer|autumn|winter)|(?:earlier|before) (?:today|this {_UNITS_OF_TIME})|"
@@ -56,6 +61,7 @@ _ASKING = re.compile(
     r"what|"
     r"how|which|where|when|will|was|were|did|had|has|have|is|are|does|do)\b"
 )
+_HELD = re.compile(rf"\b(?:it|this|that|(?:the|this|that|our) {THING})\b")
 _OTHER = r"(?:other|opposite|opposing|second|partner|far)"
 _OTHER_FINGER = re.compile(
     rf"\b{_OTHER} (?:finger|fingertip|jaw|gel|gel pad|sensor|pad)\b"
@@ -101,7 +107,7 @@ def _subject(words: str) -> str:
             continue
         if _NEARBY.search(clause):
             return "surroundings"
-        if not re.search(r"\b(?:it|this|that)\b", clause) and not names_touch(clause):
+        if not _HELD.search(clause) and not names_touch(clause):
             continue
         if _BEFORE.search(clause) and _IN_PAST.search(clause):
             return "past"

@@ -14,6 +14,8 @@ from tacgrasp.lessons.understanding import understood_by_grammar
         ("Had the previous piece sunk in deeper?", "past"),
         ("How deep will it be in half an hour?", "future"),
         ("Will the next part weigh more than this?", "future"),
+        ("Will the box be dented by Friday?", "future"),
+        ("Does it stay there, or will it have slipped in twenty minutes?", "future"),
         ("Roughly what will the area be tomorrow?", "future"),
         ("How large is the contact area on the opposing jaw?", "elsewhere"),
         ("And at the second finger, how many newtons?", "elsewhere"),
