@@ -207,6 +207,10 @@ def compared_in(meant: Meaning) -> Amount | None:
     return Amount(quantity=found["name"], unit=found["unit"])
 
 
+_YES_OR_NO = re.compile(r"(?:is|are|does|do) (?:it|that|this|they|we|you|i|the \w+)\b")
+"""How a follow-up begins that asks for no number."""
+
+
 def _calculated(core: str, term: Term, unit: str) -> Calculated | None:
     """What is calculated of a pronoun that stands for a number."""
     asked = asked_words(core)
@@ -215,6 +219,8 @@ def _calculated(core: str, term: Term, unit: str) -> Calculated | None:
     usual = calculated(core)
     told = calculated_about(asked, term)
     if told is None or (usual is not None and usual.truth == told.truth):
+        return None
+    if told.unit is not None and _YES_OR_NO.match(core):
         return None
     is_of_it = term.expression in told.truth or term.factor in told.truth
     return told if is_of_it else None

@@ -379,6 +379,10 @@ def test_what_compares_no_numbers_has_no_difference():
             "calculate 100 * force_n / limit_n < 60.",
         ),
         (("Would this surely hold 25 g?", "Fifty, then?"), "calculate holds_g >= 50."),
+        (
+            ("How many percent of the pad are touched?", "Does it cover over a third of the pad?"),
+            "check area > #1 %.",
+        ),
         (("Would this surely hold 25 g?", "And two hundred?"), "calculate holds_g >= 200."),
         (("How far is it from the left edge?", "And why?"), "because x."),
     ],
