@@ -71,8 +71,8 @@ def test_a_load_and_a_ratio_are_calculated(question, truth):
         ("How far up from the bottom edge is the print, in mm?", "pad_height_mm / 2 + y_mm"),
         ("Is the print nearer to the right rim or to the top rim?",
          "'right' if pad_width_mm / 2 - x_mm < pad_height_mm / 2 - y_mm else 'top'"),
-        ("How wide is that sensing window?", "pad_width_mm"),
-        ("What does it come to, newtons per mm of indentation?", "force_n / depth_mm"),
+        ("How broad is the sensing window?", "pad_width_mm"),
+        ("Please find the newtons per mm of penetration.", "force_n / depth_mm"),
     ],
 )  # fmt: skip
 def test_a_place_is_told_from_the_borders(question, truth):

@@ -20,7 +20,7 @@ from tacgrasp.lessons.understanding import understood_by_grammar
         ("How large is the contact area on the opposing jaw?", "elsewhere"),
         ("And at the second finger, how many newtons?", "elsewhere"),
         ("How far is the gripper above the bench?", "surroundings"),
-        ("How old is the gel?", "age"),
+        ("How many weeks has it been lying in the hand?", "age"),
         ("When was the sensor last calibrated?", "age"),
     ],
 )
