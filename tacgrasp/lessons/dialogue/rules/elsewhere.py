@@ -6,6 +6,7 @@
     How deep is it at the other finger?             unknown elsewhere.
     How high above the bench is the gripper?        unknown surroundings.
     How many months has the pad been in use?        unknown age.
+    Is there more than one contact?                 unknown surroundings.
 
 A time or a place beside a question, in a clause of its own, changes nothing: 'We met last week;
 how deep is it?'.
@@ -86,6 +87,19 @@ _AGE = re.compile(
     r"\b(?:in|how many) (?:seconds|minutes|hours|days|weeks|months|years)\b"
 )
 
+_SEVERAL = r"(?:more than one|two|three|several|multiple|many|(?:a )?second|another|any other)"
+_CONTACTS = (
+    r"(?:(?:separate|different|distinct|other) )?(?:contacts?|touch(?:es)?|"
+    r"contact (?:points?|areas?|patch(?:es)?|spots?|places?)|points? of contact)"
+)
+_MORE_CONTACTS = re.compile(
+    rf"\b(?:is|are) there {_SEVERAL} {_CONTACTS}\b(?! (?:force|limit|than))|"
+    rf"\bhow many {_CONTACTS}\b|"
+    rf"\b(?:do|can) you (?:feel|sense|see|detect) {_SEVERAL} {_CONTACTS}\b|"
+    rf"\b(?:touch\w*|contact|press\w*) (?:\w+ ){{0,2}}?(?:in|at) (?:more than one|two|three|"
+    r"several|multiple|different) (?:\w+ )?(?:places?|spots?|points?)\b"
+)
+
 
 def of_elsewhere(question: str) -> Meaning | None:
     """What is at another time, place or finger than this touch; None of other questions."""
@@ -100,6 +114,8 @@ def _subject(words: str) -> str:
         return "past"
     if is_off_topic(words):
         return ""
+    if _MORE_CONTACTS.search(words):
+        return "surroundings"
     if _OTHER_FINGER.search(words) and not _OF_BOTH.search(words):
         return "elsewhere"
     for clause in map(str.strip, _CLAUSES.split(words)):
