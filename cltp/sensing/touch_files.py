@@ -60,7 +60,13 @@ def read_cloud(
     if path.suffix.lower() in FRAME_SUFFIXES:
         heights = _frame_heights(path, sensor, background, calibration)
         with path_in_errors(path):
-            return cloud_from_heights(heights, sensor)
+            try:
+                return cloud_from_heights(heights, sensor)
+            except TouchError as error:
+                raise TouchError(
+                    f"{error}; is the frame lit as its background was, with its colours in the "
+                    "usual order, and calibrated for this unit?"
+                ) from None
     array = _read_array(path, sensor)
     for flag, given in (("--background", background), ("--calibration", calibration)):
         if given is not None:

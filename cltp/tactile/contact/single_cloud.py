@@ -40,7 +40,8 @@ def is_touched(cloud: TactileCloud) -> bool:
     if evidence.is_inverted:
         raise TouchError(
             "the gel rises where a contact would press it in: z has the wrong sign; expected mm, "
-            "positive into the gel, with the untouched gel at 0"
+            "positive into the gel, with the untouched gel at 0 (of a camera's frame, the "
+            "background is touched, or is not its own)"
         )
     return evidence.in_contact
 
