@@ -15,6 +15,7 @@ from scipy.ndimage import map_coordinates
 
 from cltp.errors import TouchError
 from cltp.tactile.force_scale import UNCALIBRATED, ForceScale
+from cltp.tactile.isolated_points import without_isolated
 from cltp.tactile.sensors import SensorSpec
 
 FloatArray = NDArray[np.float64]
@@ -51,6 +52,8 @@ class TactileCloud:
         force_scale: How forces read from it become newtons; that of the unit that measured it.
         grid: (rows, columns) where the points are those of a regular grid over the whole sensing
             area, row by row from the top left; None for any other points.
+        num_isolated: Points that stand far from all others around, where they are too many to be
+            replaced by the median around each (``cltp.tactile.isolated_points``); else 0.
 
     Raises:
         TouchError: Empty, wrong shape, not finite, fewer than ``MIN_POINTS`` points, outside the
@@ -62,13 +65,18 @@ class TactileCloud:
     stamp: Stamp | None = None
     force_scale: ForceScale = UNCALIBRATED
     grid: tuple[int, int] | None = field(init=False)
+    num_isolated: int = field(init=False)
 
     def __post_init__(self) -> None:
         points = np.array(self.points_mm, dtype=np.float32)  # a copy: nobody else can change it
         _check(points, self.sensor)
+        grid = _grid(points, self.sensor)
+        size_mm = self.sensor.width_mm, self.sensor.height_mm
+        points, num_isolated = without_isolated(points, size_mm, grid)
         points.setflags(write=False)
         object.__setattr__(self, "points_mm", points)
-        object.__setattr__(self, "grid", _grid(points, self.sensor))
+        object.__setattr__(self, "grid", grid)
+        object.__setattr__(self, "num_isolated", num_isolated)
 
 
 def _grid(points: NDArray[np.float32], sensor: SensorSpec) -> tuple[int, int] | None:
