@@ -10,6 +10,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from cltp.tactile.cloud import TactileCloud
+from cltp.tactile.contact.partial_pad import is_partial, partial_text
 from cltp.tactile.contact.raised_pad import is_raised, raised_text
 from cltp.tactile.measure import contact_state
 from cltp.tactile.states import ContactState
@@ -58,9 +59,9 @@ class RulesPolicy:
             LimitError: The contract is refused.
         """
         times_s = [self._clock()]
-        if observation.in_contact is None and is_raised(observation.cloud):  # a run has refused it
+        if observation.in_contact is None and (why := _unread_text(observation.cloud)):
             _ = contract.terms  # a refused one ends here
-            unread = f"What is felt can't be read: {raised_text(observation.cloud)}"
+            unread = f"What is felt can't be read: {why}"
             return Decision(text=f"{unread}.", action=None, success=False, reason=unread)
         if self._measure is not None:
             state = self._measure(observation.cloud)
@@ -92,3 +93,10 @@ class RulesPolicy:
                 for stage, begin, end in zip(stages, times_s, times_s[1:], strict=False)
             },
         )
+
+
+def _unread_text(cloud: TactileCloud) -> str:
+    """Why a cloud can't be read, which a run would have refused; '' where it can."""
+    if is_partial(cloud):
+        return partial_text(cloud)
+    return raised_text(cloud) if is_raised(cloud) else ""

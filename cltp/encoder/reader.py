@@ -23,6 +23,7 @@ from cltp.encoder.tokenizers import UNIT_CELL_MM
 from cltp.errors import TouchError
 from cltp.tactile.cells import height_grid, sums_around
 from cltp.tactile.cloud import TactileCloud
+from cltp.tactile.contact.partial_pad import is_partial
 from cltp.tactile.contact.raised_pad import is_raised
 from cltp.tactile.encoder_input import encoder_input
 from cltp.tactile.force_scale import POSSIBLE_RATIO
@@ -59,6 +60,7 @@ class Flag(StrEnum):
     FORCE = "force"  # the force is impossible for the one that is commanded
     PAD = "pad"  # the pad has another size or proportions than any that was learned from
     RAISED = "raised"  # the whole pad is raised: pressed all over, or without its zero
+    PARTIAL = "partial"  # part of the pad is not measured: no points there, dead or bad ones
 
 
 UNSURE_MM: Mapping[str, float] = {"depth_mm": 0.6, "x_mm": 10.0, "y_mm": 10.0}
@@ -216,6 +218,8 @@ def _flags(numbers: Mapping[str, Number], cloud: TactileCloud) -> Iterator[Flag]
         yield Flag.PAD
     if is_raised(cloud):
         yield Flag.RAISED
+    if is_partial(cloud):
+        yield Flag.PARTIAL
     if fine_noise_mm(cloud) > MOST_NOISE_MM:
         yield Flag.NOISE
     if not all(math.isfinite(value) for number in numbers.values() for value in number) or (

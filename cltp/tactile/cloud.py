@@ -102,7 +102,8 @@ def _check(points: NDArray[np.float32], sensor: SensorSpec) -> None:
     finite = np.isfinite(points).all(axis=1)
     if not finite.all():
         raise TouchError(
-            f"{int((~finite).sum())} of {len(points)} points are NaN or infinite; drop them first"
+            f"{int((~finite).sum())} of {len(points)} points are NaN or infinite; drop "
+            "them where they are few and scattered: a cloud with a hole is not read"
         )
     if len(points) < MIN_POINTS:
         number = "1 point" if len(points) == 1 else f"{len(points)} points"

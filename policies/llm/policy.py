@@ -203,8 +203,9 @@ class LlmPolicy:
         flags = flag_reason(said.reading)
         if unread := unread_reason(said.reading, observation.in_contact):
             return self._directly(unread, observation, force_n, barred, reply)
-        is_raised = Flag.RAISED in said.reading.flags  # what presses all over can't be felt
-        if flags and not is_raised and felt is not None and felt.value < force_n.low:
+        # What presses all over, or where nothing is measured, can't be felt.
+        is_unfelt = bool({Flag.RAISED, Flag.PARTIAL} & set(said.reading.flags))
+        if flags and not is_unfelt and felt is not None and felt.value < force_n.low:
             return by_felt_force(flags, felt, force_n)
         is_deep = set(said.reading.flags) == {Flag.RANGE}  # felt directly, it still has a force
         if is_deep and felt is not None and felt.value > force_n.high and _LESS not in barred:

@@ -13,6 +13,7 @@ from typing import Any
 from cltp.encoder.reader import reading_of
 from cltp.llm.generation import Talker
 from cltp.tactile.cloud import TactileCloud
+from cltp.tactile.contact.partial_pad import is_partial, partial_text
 from cltp.tactile.contact.raised_pad import is_raised, raised_text
 from cltp.tactile.contact.single_cloud import is_touched
 from cltp.tactile.encoder_input import encoder_input
@@ -89,16 +90,20 @@ class Conversation:
         spoken = SpokenContact(NO_CONTACT_STATE, {}, {})
         self._flags: tuple[str, ...] = ()
         self._unread = f"I can't say: {raised_text(cloud)}." if is_raised(cloud) else ""
+        is_in_contact = not self._unread and is_touched(cloud)
         told = AskedScene(contract=contract, mass_g=mass_g, sensor=cloud.sensor)
         if self._unread:
             self._flags = (RAISED,)
-        elif is_touched(cloud):
+        elif is_in_contact:
             felt = talker.feel(encoder_input(cloud, talker.layout), cloud.force_scale)
             spoken = spoken_contact(talker, felt, cloud.sensor)
             reading = reading_of(felt.readings, cloud, talker.model.heads.contradiction)
-            self._flags = (*(flag.value for flag in reading.flags), *cloud_flags(cloud))
+            flags = [*(flag.value for flag in reading.flags), *cloud_flags(cloud)]
+            self._flags = tuple(dict.fromkeys(flags))
         else:
             self._flags = tuple(zero_flags(cloud))
+            if is_partial(cloud):
+                self._unread = f"I can't say: {partial_text(cloud)}."
         self._dialogue = Dialogue(
             partial(next_turn, talker),
             replace(told, state=spoken.state),

@@ -5,11 +5,12 @@ Not here: reading files (``cltp.sensing.touch_files``), measuring (``cltp.tactil
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from cltp.tactile.cloud import TactileCloud
+from cltp.tactile.contact.partial_pad import is_partial, partial_text
 from cltp.tactile.contact.raised_pad import is_raised, raised_text
 from cltp.tactile.contact.single_cloud import (
     is_lowered,
@@ -48,6 +49,9 @@ DIFFERS, DIFFERS_N = 1.5, 0.5
 interval where the two exclude each other. Our choice: its own error of a single contact is -26 to
 +35 %, and drift beside a light one is some tenths of a newton."""
 
+PARTIAL = "partial"
+"""Flag of a pad that is measured in part (``cltp.encoder.reader.Flag``)."""
+
 LOWERED = "lowered"
 """Flag of a cloud that has lost its zero (``cltp.tactile.contact.single_cloud``)."""
 
@@ -71,8 +75,8 @@ def cloud_flags(cloud: TactileCloud) -> list[str]:
 
 
 def zero_flags(cloud: TactileCloud) -> list[str]:
-    """Flag of a cloud that has lost its zero, touched or not; none of one that has kept it."""
-    return [LOWERED] if is_lowered(cloud) else []
+    """Flags of a cloud that is partial or has lost its zero, touched or not."""
+    return [PARTIAL] * is_partial(cloud) + [LOWERED] * is_lowered(cloud)
 
 
 def describe(cloud: TactileCloud) -> list[str]:
@@ -89,6 +93,10 @@ def describe(cloud: TactileCloud) -> list[str]:
     ]
     if is_raised(cloud):
         return [*lines, f"contact   unreadable: {raised_text(cloud)}"]
+    if is_partial(cloud):
+        if not state.in_contact:
+            return [*lines, f"contact   unknown: {partial_text(cloud)}"]
+        lines.append(f"pad       don't act on this: {partial_text(cloud)}")
     if is_lowered(cloud):
         lines.append(f"zero      don't act on this: {lowered_text(cloud)}")
     if state.depth is None or state.position is None or state.area is None:
@@ -127,12 +135,14 @@ def describe_in_numbers(cloud: TactileCloud, reader: TouchReader | None) -> dict
     Raises:
         TouchError: The cloud can't be measured, or its z has the wrong sign.
 
-    Of a pad that is raised all over, and of one that has lost its zero where nothing stands out,
-    ``contact`` is None, and nothing is read but the flag.
+    Of a pad that is raised all over, or where nothing stands out of one that is measured in part or
+    has lost its zero, ``contact`` is None, and nothing is read but the flag.
     """
     if is_raised(cloud):
         return _in_numbers(cloud, None, NO_CONTACT_STATE, flags=[RAISED])
     is_in_contact = is_touched(cloud)
+    if is_partial(cloud) and not is_in_contact:
+        return _in_numbers(cloud, None, NO_CONTACT_STATE, flags=zero_flags(cloud))
     state, flags = contact_state(cloud, in_contact=is_in_contact), []
     numbers: dict[str, dict[str, float | None]] = {}
     confidence: dict[str, float] = {}
@@ -155,6 +165,7 @@ def describe_in_numbers(cloud: TactileCloud, reader: TouchReader | None) -> dict
             name: {"value": getattr(state, name), "lo": None, "hi": None} for name in NUMBERS
         }
     flags += cloud_flags(cloud) if is_in_contact else zero_flags(cloud)
+    flags = list(dict.fromkeys(flags))
     contact = None if LOWERED in flags and not is_in_contact else is_in_contact
     return _in_numbers(cloud, contact, state, numbers=numbers, confidence=confidence, flags=flags)
 
@@ -192,7 +203,7 @@ def _in_numbers(
     words = {name: getattr(state, name) for name in DIMENSIONS}
     said = caption(state)
     if contact is None:
-        said = f"{lowered_text(cloud) if LOWERED in flags else raised_text(cloud)}."
+        said = f"{_why_unknown(cloud, flags)}."
     return {
         "sensor": cloud.sensor.name,
         "points": len(cloud.points_mm),
@@ -202,6 +213,13 @@ def _in_numbers(
         "confidence": confidence or {},
         "flags": flags,
     }
+
+
+def _why_unknown(cloud: TactileCloud, flags: Sequence[str]) -> str:
+    """Why it is unknown whether anything touches, without a full stop."""
+    if PARTIAL in flags:
+        return partial_text(cloud)
+    return lowered_text(cloud) if LOWERED in flags else raised_text(cloud)
 
 
 def describe_by_model(cloud: TactileCloud, model: LlmPolicy, contract: Contract) -> list[str]:
@@ -215,7 +233,9 @@ def describe_by_model(cloud: TactileCloud, model: LlmPolicy, contract: Contract)
     terms = contract.terms
     reading = model.say(observation, terms.force_n, terms.limit_n).reading
     decision = model.decide(observation, contract)
-    if is_lowered(cloud):
+    if is_partial(cloud):
+        advice = f"no action: {partial_text(cloud)}"
+    elif is_lowered(cloud):
         advice = f"no action: {lowered_text(cloud)}"
     elif decision.action is not None:
         advice = f"{decision.action} (confidence {decision.confidence:.2f})"

@@ -14,6 +14,7 @@ from typing import TypeVar
 from cltp.errors import TouchError
 from cltp.tactile.cloud import TactileCloud
 from cltp.tactile.contact.contact_test import NUM_FRAMES, UntouchedGel, prepare_tests
+from cltp.tactile.contact.partial_pad import is_partial, partial_text
 from cltp.tactile.contact.raised_pad import is_raised, raised_text
 from cltp.tactile.measure import contact_state
 from cltp.tactile.sensors import SensorSpec
@@ -116,10 +117,12 @@ class GelSense:
         From the first reference on it is less the drift since then.
 
         Raises:
-            TouchError: The sensor gives no fresh cloud, or the whole pad is raised over the
-                reference.
+            TouchError: The sensor gives no fresh cloud or measures only part of the pad, or the
+                whole pad is raised over the reference.
         """
         cloud = self._sensor.read(frames_per_reading(self._sensor.spec))
+        if is_partial(cloud):
+            raise TouchError(f"{partial_text(cloud)}; look at the sensor, then grasp anew")
         if self._untouched is None:
             return cloud
         if is_raised(cloud):  # neither a contact that can be read nor none

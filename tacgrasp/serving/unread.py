@@ -1,12 +1,13 @@
 """Why a cloud in a question is not decided on, whatever the policy.
 
-A run's own sensing (``tacgrasp.rig.gel_sense``) refuses a pad that is raised all over and compares
-with the untouched gel; a client of another make may send what it likes.
+A run's own sensing (``tacgrasp.rig.gel_sense``) refuses a pad that is raised all over or measured
+in part, and compares with the untouched gel; a client of another make may send what it likes.
 """
 
 from __future__ import annotations
 
 from cltp.tactile.cloud import check_relief
+from cltp.tactile.contact.partial_pad import is_partial, partial_text
 from cltp.tactile.contact.raised_pad import is_raised, raised_text
 from cltp.tactile.contact.single_cloud import is_lowered, is_touched, lowered_text
 from policies import Observation
@@ -22,6 +23,8 @@ def unread_reason(observation: Observation) -> str:
         TouchError: z has the wrong sign, or seems to be in metres.
     """
     cloud = observation.cloud
+    if is_partial(cloud):
+        return f"What is felt can't be read: {partial_text(cloud)}"
     if is_raised(cloud):
         return f"What is felt can't be read: {raised_text(cloud)}"
     if observation.in_contact is not False:

@@ -15,6 +15,7 @@ from cltp.errors import TouchError
 from cltp.tactile.cells import cell_means, filled
 from cltp.tactile.cloud import TactileCloud
 from cltp.tactile.contact.contact_test import drift_alone_mm, touches_alone
+from cltp.tactile.contact.partial_pad import is_partial
 from cltp.tactile.sensor_noise import MINI_SPREAD, SPREADS
 
 LOW_PART = 0.1
@@ -34,10 +35,11 @@ def is_touched(cloud: TactileCloud) -> bool:
     """Whether something touches the gel of a single cloud, by test.
 
     Raises:
-        TouchError: The gel rises where a contact would press it in.
+        TouchError: The gel rises where a contact would press it in, as far as it is measured all
+            over.
     """
     evidence = touches_alone(cloud)
-    if evidence.is_inverted:
+    if evidence.is_inverted and not is_partial(cloud):
         raise TouchError(
             "the gel rises where a contact would press it in: z has the wrong sign; expected mm, "
             "positive into the gel, with the untouched gel at 0 (of a camera's frame, the "
