@@ -14,6 +14,8 @@ from typing import NamedTuple
 
 import numpy as np
 import torch
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
 from torch import Tensor
 
 from cltp.encoder.encoder import TactileEncoder
@@ -21,7 +23,7 @@ from cltp.encoder.heads import StateHeads, outside
 from cltp.encoder.readings import WITHOUT_INTERVALS, HeadReadings, readings_of
 from cltp.encoder.tokenizers import UNIT_CELL_MM
 from cltp.errors import TouchError
-from cltp.tactile.cells import height_grid, sums_around
+from cltp.tactile.cells import LEAST_FILLED, height_grid
 from cltp.tactile.cloud import TactileCloud
 from cltp.tactile.contact.partial_pad import is_partial
 from cltp.tactile.contact.raised_pad import is_raised
@@ -30,7 +32,7 @@ from cltp.tactile.force_scale import POSSIBLE_RATIO
 from cltp.tactile.measure import contact_state
 from cltp.tactile.noise_levels import WIDE
 from cltp.tactile.point_layout import GRID
-from cltp.tactile.sensor_noise import MINI_SPREAD
+from cltp.tactile.sensor_noise import MINI_SPREAD, SPREADS
 from cltp.tactile.sensors import SensorSpec
 from cltp.tactile.states import (
     CLASSES,
@@ -45,9 +47,10 @@ from cltp.tactile.states import (
     Texture,
 )
 
-MOST_NOISE_MM = 1.25 * WIDE.factor[1] * MINI_SPREAD.fine_mm
-"""Fine noise in cells of ``GRID`` above which a cloud is noisier than any learned from [mm]. A
-quarter of allowance, for the error of its estimate."""
+NOISE_ALLOWANCE = 8.0
+"""Part, over the root of the number of points, by which the fine noise that is seen may exceed that
+of training, for the error of its estimate: a quarter of 1024 points. Source: 20 seeds of noise on a
+ball; from 0.06 mm per point on, area and place leave their intervals, and all are flagged."""
 
 
 class Flag(StrEnum):
@@ -220,7 +223,7 @@ def _flags(numbers: Mapping[str, Number], cloud: TactileCloud) -> Iterator[Flag]
         yield Flag.RAISED
     if is_partial(cloud):
         yield Flag.PARTIAL
-    if fine_noise_mm(cloud) > MOST_NOISE_MM:
+    if fine_noise_mm(cloud) > most_noise_mm(cloud):
         yield Flag.NOISE
     if not all(math.isfinite(value) for number in numbers.values() for value in number) or (
         numbers["depth_mm"].value > cloud.sensor.gel_mm
@@ -253,11 +256,46 @@ def _is_impossible(force: Number, state: ContactState, commanded_n: float | None
     return force.low > POSSIBLE_RATIO * commanded_n or is_below
 
 
-def fine_noise_mm(cloud: TactileCloud) -> float:
-    """Fine noise of a cloud in cells of ``GRID`` [mm]: of heights less their neighbours' mean.
+def most_noise_mm(cloud: TactileCloud) -> float:
+    """Fine noise above which a cloud is noisier than any of its sensor learned from [mm]."""
+    fine_mm = SPREADS.get(cloud.sensor.name, MINI_SPREAD).fine_mm
+    return WIDE.factor[1] * fine_mm * (1 + NOISE_ALLOWANCE / math.sqrt(len(cloud.points_mm)))
 
-    The median of absolute values, which a contact on part of the pad hardly changes.
+
+def fine_noise_mm(cloud: TactileCloud) -> float:
+    """Fine noise of a cloud [mm]: of its points, or of cells of ``GRID`` where these hold more.
+
+    Heights are compared with the smooth surface through those around, and the lower quartile is
+    taken, which neither a contact nor its texture on most of the pad changes much.
     """
-    heights = height_grid(cloud, GRID)
-    relief = (heights - sums_around(heights) / 9)[1:-1, 1:-1]
-    return float(1.4826 * np.median(np.abs(relief)) / math.sqrt(1 - 1 / 9))
+    rows, columns = GRID.cells_on(cloud.sensor.width_mm, cloud.sensor.height_mm)
+    if cloud.grid is not None and cloud.grid[0] <= rows and cloud.grid[1] <= columns:
+        heights = cloud.points_mm[:, 2].reshape(cloud.grid).astype(np.float64)
+    elif cloud.grid is None and len(cloud.points_mm) < LEAST_FILLED * rows * columns:
+        return _spread_mm(_residuals_mm(cloud))
+    else:
+        heights = height_grid(cloud, GRID).astype(np.float64)
+    across = heights[:, :-2] - 2 * heights[:, 1:-1] + heights[:, 2:]
+    down = heights[:-2] - 2 * heights[1:-1] + heights[2:]
+    both = across[:-2] - 2 * across[1:-1] + across[2:]
+    six = math.sqrt(6)  # of independent heights; ridges along either axis are smooth along it
+    return min(_spread_mm(across / six), _spread_mm(down / six), _spread_mm(both / 6))
+
+
+def _residuals_mm(cloud: TactileCloud) -> NDArray[np.float64]:
+    """Heights of loose points less the quadric through those around, as if of the noise alone."""
+    points = cloud.points_mm.astype(np.float64)
+    some = points[:: max(1, len(points) // _MOST_FITTED)]
+    _, nearest = cKDTree(points[:, :2]).query(some[:, :2], k=_FITTED_POINTS + 1)
+    around = points[nearest[:, 1:]] - some[:, None]
+    x, y, z = np.moveaxis(around, -1, 0)
+    weights = np.linalg.pinv(np.stack([np.ones_like(x), x, y, x * x, x * y, y * y], -1))[:, 0]
+    return np.asarray((weights * z).sum(axis=1) / np.sqrt(1 + (weights**2).sum(axis=1)))
+
+
+_MOST_FITTED, _FITTED_POINTS = 512, 14
+
+
+def _spread_mm(noise_mm: NDArray[np.float64]) -> float:
+    """Standard deviation of normal noise, by the lower quartile of its absolute values [mm]."""
+    return float(np.quantile(np.abs(noise_mm), 0.25) / 0.3186)

@@ -15,7 +15,7 @@ from cltp.encoder.reader import Flag, Number, TouchReader, TouchReading, fine_no
 from cltp.encoder.readings import readings_of
 from cltp.errors import TouchError
 from cltp.tactile.cells import resampled
-from cltp.tactile.cloud import TactileCloud, cloud_of_pixels
+from cltp.tactile.cloud import TactileCloud, cloud_from_heights, cloud_of_pixels
 from cltp.tactile.force_scale import ForceScale
 from cltp.tactile.measure import contact_state
 from cltp.tactile.point_layout import GRID
@@ -82,6 +82,17 @@ def test_more_noise_than_was_learned_from_is_flagged(reader: TouchReader) -> Non
     assert Flag.NOISE not in reader.read(cloud(0.03)).flags
     assert Flag.NOISE in reader.read(cloud(0.08)).flags
     assert fine_noise_mm(cloud(0.03)) == pytest.approx(0.03, rel=0.1)
+
+
+@pytest.mark.parametrize("noise_mm", [0.03, 0.08])
+@pytest.mark.parametrize("is_grid", [True, False])
+def test_noise_of_few_points_is_read_as_large_as_it_is(noise_mm: float, *, is_grid: bool) -> None:
+    rng = np.random.default_rng(0)
+    even = cloud_from_heights(bump(1.0, -2.0, 0.5), MINI, rng=None if is_grid else rng)
+    points = even.points_mm.copy()
+    points[:, 2] += rng.normal(0, noise_mm, len(points))
+    noisy = dataclasses.replace(even, points_mm=points)
+    assert fine_noise_mm(noisy) == pytest.approx(noise_mm, rel=0.2)
 
 
 @pytest.mark.parametrize(
