@@ -400,15 +400,24 @@ def test_print_config_of_a_refused_instruction_ends_as_the_run_would(capsys: Cap
     assert "refused: " in capsys.readouterr().out
 
 
-@pytest.mark.parametrize("encoding", ["ascii", "latin-1"])
-def test_a_display_that_lacks_a_sign_ends_no_run(encoding: str, tmp_path: Path) -> None:
-    command = [sys.executable, "-m", "tacgrasp", "run", "--policy", "rules", "--seed", "6"]
-    environment = {**os.environ, "PYTHONIOENCODING": encoding}
+@pytest.mark.parametrize(
+    ("encoding", "argv", "expected"),
+    [
+        ("ascii", ["understand", "1 N"], b"?"),
+        ("latin-1", ["run", "--policy", "rules", "--seed", "6"], b"Grasp completed successfully"),
+    ],
+)
+def test_a_display_that_lacks_a_sign_ends_no_run(
+    encoding: str, argv: list[str], expected: bytes, tmp_path: Path
+) -> None:
     done = subprocess.run(
-        [*command, "--record", str(tmp_path)], cwd=ROOT, env=environment, capture_output=True
+        [sys.executable, "-m", "tacgrasp", *argv],
+        cwd=tmp_path,
+        env={**os.environ, "PYTHONIOENCODING": encoding, "PYTHONPATH": str(ROOT)},
+        capture_output=True,
     )
     assert (done.returncode, done.stderr) == (0, b"")
-    assert b"Grasp completed successfully" in done.stdout
+    assert expected in done.stdout
 
 
 RIGS = (*names("rig"), str(ROOT / "docs/example_rig.yaml"))
