@@ -318,6 +318,11 @@ class LlmPolicy:
         }
         return SaidStep(felt, reading, reply, stages)
 
+    def read(self, cloud: TactileCloud) -> TouchReading:
+        """What the encoder's heads read of a contact, of which nothing is said."""
+        felt = self._talker.feel(encoder_input(cloud, self._talker.layout), cloud.force_scale)
+        return reading_of(felt.readings, cloud, self._talker.model.heads.contradiction)
+
     def describe(self, cloud: TactileCloud, *, doubt: bool = True) -> str:
         """The model's caption of a contact, with its numbers.
 

@@ -90,20 +90,18 @@ def _is_said_otherwise(own: SlotDecision, agreed: SlotDecision, doubt: bool) -> 
 
 
 class CaptionSpeaker:
-    """Captions without doubtful words (``cltp.evaluation.llm_scores.Speaker``).
+    """Captions without doubt, as evaluation reads them (``cltp.evaluation.llm_scores.Speaker``).
 
     Args:
         talker: The model.
-        ranges: Whether a number that is not well known is said as its interval.
     """
 
-    def __init__(self, talker: Talker, *, ranges: bool = False) -> None:
+    def __init__(self, talker: Talker) -> None:
         self._talker = talker
-        self._ranges = ranges
 
     def caption(self, points: NDArray[np.float32]) -> str:
         """Describe one contact, points of shape (N, 3) scaled."""
-        return caption_reply(self._talker, self._talker.feel(points), ranges=self._ranges).text
+        return caption_reply(self._talker, self._talker.feel(points)).text
 
 
 def spoken_contact(talker: Talker, felt: Felt, sensor: SensorSpec | None = None) -> SpokenContact:

@@ -79,7 +79,18 @@ def said_number(name: str, value: float, low: float, high: float) -> str:
     least = DOUBTFUL.get(name)
     if least is None or high - low < least or high < DOUBTFUL_RATIO * low:
         return number_text(name, value)
-    return f"{number_text(name, low)}-{number_text(name, high)}"
+    return _interval_text(name, low, high)
+
+
+def _interval_text(name: str, low: float, high: float) -> str:
+    """An interval, or the one number that both of its ends are written as."""
+    ends = dict.fromkeys(number_text(name, end) for end in (low, high))
+    return "-".join(ends)
+
+
+def tolerance_of(name: str, value: float) -> float:
+    """How far a number of a caption may be off its true value, in its unit."""
+    return max(TOLERANCE_RATIO * abs(value), TOLERANCE[name])
 
 
 def said_numbers(state: ContactState, ends: Mapping[str, tuple[float, float]]) -> dict[str, str]:
@@ -110,10 +121,9 @@ def caption_numbers(state: ContactState, ends: Mapping[str, tuple[float, float]]
     """
     said = said_numbers(state, {})
     for name, (low, high) in ends.items():
-        tolerance = max(TOLERANCE_RATIO * abs(getattr(state, name)), TOLERANCE[name])
-        if name in DOUBTFUL and high - low > 2 * KNOWN_RATIO * tolerance:
-            low_text, high_text = number_text(name, low), number_text(name, high)
-            said[name] = f"{low_text}-{high_text}" if low_text != high_text else low_text
+        known = 2 * KNOWN_RATIO * tolerance_of(name, getattr(state, name))
+        if name in DOUBTFUL and high - low > known:
+            said[name] = _interval_text(name, low, high)
     return said
 
 

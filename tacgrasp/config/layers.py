@@ -78,7 +78,8 @@ def load_with_limits(
     source, of_rig, folder = _read_layer("rig", merged["rig"])
     _merge(merged, of_rig, source, sources)
     hard = _hard_limits(merged)
-    _merge(merged, may_narrow, task_source, sources)
+    if may_narrow:
+        _merge(merged, may_narrow, task_source, sources)
     for variable, value in sorted(variables.items()):
         layer: Any = value  # a sentence that is no YAML is a text
         try:

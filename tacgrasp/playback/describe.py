@@ -229,10 +229,7 @@ def describe_by_model(cloud: TactileCloud, model: LlmPolicy, contract: Contract)
         LimitError: The contract is refused.
     """
     description = model.describe(cloud)
-    observation = Observation(cloud=cloud)
-    terms = contract.terms
-    reading = model.say(observation, terms.force_n, terms.limit_n).reading
-    decision = model.decide(observation, contract)
+    decision = model.decide(Observation(cloud=cloud), contract)
     if is_partial(cloud):
         advice = f"no action: {partial_text(cloud)}"
     elif is_lowered(cloud):
@@ -244,7 +241,7 @@ def describe_by_model(cloud: TactileCloud, model: LlmPolicy, contract: Contract)
     else:
         advice = f"no action: {decision.reason}"
     mark = cloud.force_scale.mark
-    doubt = differing(contact_state(cloud, in_contact=True), reading.numbers)
+    doubt = differing(contact_state(cloud, in_contact=True), model.read(cloud).numbers)
     return [
         f"model     {description}",
         *([f"differs   {doubt}: don't act on either force"] if doubt else []),

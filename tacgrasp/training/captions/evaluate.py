@@ -40,7 +40,7 @@ from cltp.tactile.sensor_noise import NoiseUnit, spread_of
 from cltp.tactile.states import CLASSES, NUMBERS, ContactState
 from cltp.texts.captions import caption
 from cltp.train.stage import ProgressReport, silent
-from policies.llm.spoken import CaptionSpeaker
+from policies.llm.spoken import caption_reply
 from policies.llm.text import caption_text
 from tacgrasp.lessons.dialogue.scoring.question_file import read_questions
 from tacgrasp.lessons.question_scores import answer_all, ask_all, figures
@@ -115,12 +115,12 @@ def rate_captions(run: CaptionRun) -> list[Result]:
     batches = random_batches(data, run.contacts, split.noise, seed=run.seed, layout=talker.layout)
     truths = [state for batch in batches for state in batch.states]
     references = [caption_text(state) for state in truths]
-    speaker, plain = CaptionSpeaker(talker, ranges=True), CaptionSpeaker(talker)
     texts: list[str] = []
     with_numbers: list[str] = []
     for points in (points for batch in batches for points in batch.points):
-        texts.append(speaker.caption(points))
-        with_numbers.append(plain.caption(points))
+        felt = talker.feel(points)
+        texts.append(caption_reply(talker, felt, ranges=True).text)
+        with_numbers.append(caption_reply(talker, felt).text)
         run.report("captions", len(texts), len(truths), {})
     usual = Result(
         table=CAPTIONS,

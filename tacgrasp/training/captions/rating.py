@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from cltp.errors import TouchError
 from cltp.tactile.states import CLASSES, NUMBERS, ContactState
 from cltp.texts.captions import NO_CONTACT, Slots, parse_caption, slots_of
-from policies.llm.text import TOLERANCE, TOLERANCE_RATIO
+from policies.llm.text import tolerance_of
 from tacgrasp.lessons.captions import NUMBER, numbers_by_name, ranges_by_name
 
 LOWEST, HIGHEST = 1.0, 5.0
@@ -109,5 +109,4 @@ def _right_words(said: Slots, truth: ContactState) -> dict[str, bool]:
 
 
 def _is_near(name: str, value: float, truth: float) -> bool:
-    margin = max(TOLERANCE_RATIO * abs(truth), TOLERANCE[name])
-    return abs(value - truth) <= margin + 1e-9
+    return abs(value - truth) <= tolerance_of(name, truth) + 1e-9
