@@ -96,6 +96,19 @@ _SIGNS = (
     (re.compile(r" ?> ?"), " more than "),
     (re.compile(r" ?< ?"), " less than "),
 )
+_BAND_S_ENDS = re.compile(r"\b(?:the|its|our) (?:force )?band['’]s (?:two |both )?ends\b", re.I)
+_CLEFT = re.compile(
+    r"(?:is|would) it (?P<offered>[^?,]+ or [^?,]+?) (?:that|which) "
+    r"(?P<who>(?:we|it|you)|the \w+) (?P<verb>are|is|lies?|sits?) (?P<rest>[^?,]+)",
+    re.I,
+)
+"""'Is it the low or the high end that we are closer to?' asks whether we are closer to ..."""
+
+_COORDINATE = re.compile(
+    r"(?<=\bis )[xy](?= from (?:the |its )?(?:left|right|top|bottom|upper|lower) "
+    r"(?:border|edge|rim|side)\b)",
+    re.I,
+)
 _POLITE = re.compile(
     r"(?:(?:could|can|may|might) (?:i|we) (?:trouble|bother|ask) you (?:for|to (?:tell|give) me)|"
     r"i (?:would|['’]d) be (?:most |very )?(?:grateful|obliged|glad|thankful) (?:for|to have))\s+",
@@ -107,7 +120,11 @@ _PURPOSE = re.compile(
 _RIGHT = re.compile(
     r"[,;–—-] (?:is|am) (?:it|that|this|i) (?:correct|right|true|so)(?=\s*[?.!]*$)", re.I
 )
-_CHOICE_TAG = re.compile(r"(?<=\w), (?:no|yes|right|correct)(?=[?.! ]*$)", re.I)
+_CHOICE_TAG = re.compile(
+    r"(?<=\w), (?:no|yes|right|correct|(?:what )?(?:would|do) you (?:say|think|reckon|guess))"
+    r"(?=[?.! ]*$)",
+    re.I,
+)
 _ADDED = re.compile(
     r",? (?:rounded )?(?:to|with) (?:\w+|\d) (?:decimals?|decimal places|digits|"
     r"significant (?:figures|digits))|"
@@ -187,7 +204,8 @@ _NUMERO = re.compile(r"\b(serial|phone|part|item|order|batch|lot|model) no\.", r
 _WHICH_ONE = re.compile(r"\bwhich one(?:['’]s| is) ", re.I)
 _CONVERT = re.compile(
     r"^(?:please )?(?:convert|express|translate|turn) (?P<what>(?:the |its |our )?[a-z ]+?) "
-    r"(?:to|into|in|as) (?P<unit>[cmk]?n|[cmµ]?m|(?:milli|centi|kilo)?newtons?|microns?|"
+    r"(?:to|into|in|as) (?:(?:an? |the |its )?(?:(?P<made>weight|force)|load|value|figure) in )?"
+    r"(?P<unit>[cmk]?n|[cmµ]?m|(?:milli|centi|kilo)?newtons?|microns?|"
     r"inch(?:es)?|(?:milli|centi|micro)met(?:re|er)s?|k?g|(?:kilo)?grams?|ounces?|pounds?|"
     r"percent)(?=[?.! ]*$)",
     re.I,
@@ -297,8 +315,12 @@ def plainer(question: str) -> str:
         text,
     )
     text = _INFERIOR.sub("below", _SUPERIOR.sub("above", _MEANING.sub("", text)))
+    text = _BAND_S_ENDS.sub("both ends of the band", _COORDINATE.sub("it", text))
+    text = _CLEFT.sub(r"\g<verb> \g<who> \g<rest> \g<offered>", text)
     text = _WHICH_ONE.sub("which is ", text)
-    text = _CONVERT.sub(r"give me \g<what> in \g<unit>", text)
+    text = _CONVERT.sub(
+        lambda each: f"give me {each['made'] or each['what']} in {each['unit']}", text
+    )
     text = _NUMERO.sub(r"\1 number", metric(text))
     if opening := _ADDRESS.match(text):
         text = text[opening.end() :]

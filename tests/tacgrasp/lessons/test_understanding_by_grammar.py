@@ -526,6 +526,15 @@ _READ = {
     "Kilos of force, please": "calculate force_n / 0.00980665 in kg.",
     "What is the friction coefficient between the gel and it?": "unknown friction.",
     "How far does it stick out past the edge of the pad?": "unknown size.",
+    "Ball or cylinder, what would you say?": "choice shape.",
+    "Convert the mass into a weight in newtons.": "calculate 0.00980665 * mass_g in N.",
+    "What are the band's two ends and the limit?": (
+        "amount band_low N; amount band_high N; amount limit N."
+    ),
+    "Is it the lower or the upper end of the band that the force is nearer to?": (
+        "calculate 'lower' if abs(force_n - band_low_n) < abs(force_n - band_high_n) else 'upper'."
+    ),
+    "How far is x from the left border?": "calculate pad_width_mm / 2 + x_mm in mm.",
 }
 
 
