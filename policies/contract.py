@@ -23,6 +23,7 @@ from policies.force_terms import (
     most_of,
     named_terms,
     scaled_terms,
+    stated_most,
     toleranced_band,
     words_of,
 )
@@ -40,6 +41,12 @@ from primitives.contract import (
     default_limit_n,
 )
 from primitives.errors import LimitError
+
+_OR = re.compile(r"\b(?:or|otherwise|if)\b")
+"""Alternatives are refused by what they come to, and near ones are not."""
+
+ONE_FORCE = 1.06
+"""Largest over smallest of two named forces that are one: '1 N, which is 100 g'."""
 
 BANDS = ("force_n", "limit_n", "slip_mm", "x_mm", "y_mm", "depth_mm", "area_fraction")
 
@@ -171,6 +178,7 @@ def _take_words(draft: _Draft, request: Request, task: TaskTerms, *, is_own: boo
         draft.lean = LEANS[manner.sign, manner.strong]
     if numbers.forces:
         draft.words = words_of(numbers.forces)
+        _check_wishes(numbers)
         draft.set_force(
             named_terms(numbers.forces, manner, task.force), f"your words: {draft.words}"
         )
@@ -180,6 +188,7 @@ def _take_words(draft: _Draft, request: Request, task: TaskTerms, *, is_own: boo
                 draft.origins["force_n"] = draft.origins["limit_n"] = TASK
                 limit = f"the task's limit of {task.force.limit_n:.3g} N"
                 draft.assumed.append(f"{draft.words!r} is above {limit}, which stays")
+        _keep_within(draft, numbers)
         _note_tolerances(draft, numbers.forces, numbers.rest)
     elif numbers.delta_n is not None:
         draft.words = f"{numbers.delta_n:+.3g} N"
@@ -201,6 +210,33 @@ def _take_words(draft: _Draft, request: Request, task: TaskTerms, *, is_own: boo
         draft.set_force(force, f"{name}: your words: {manner.words}")
     elif manner.words:
         draft.assumed.append(f"{manner.words!r} cancel each other: the task's band")
+
+
+def _check_wishes(numbers: Quantities) -> None:
+    """Refuse two forces that differ and are no alternatives: the larger one may be a bound.
+
+    Raises:
+        RefusedError: There are such two.
+    """
+    values = [force.value_n for force in numbers.forces if force.kind == "value"]
+    if len(values) < 2 or max(values) <= ONE_FORCE * min(values) or _OR.search(numbers.rest):
+        return
+    raise RefusedError(
+        f"it names {words_of(numbers.forces)} and does not say what each is for; say, for example, "
+        f"'{min(values):.3g} N, at most {max(values):.3g} N'"
+    )
+
+
+def _keep_within(draft: _Draft, numbers: Quantities) -> None:
+    """Lower the limit to a number that the words state above the force that they ask for."""
+    stated = stated_most(numbers.forces, numbers.stated)
+    if stated is None or draft.force.limit_n <= (most_n := ROUNDING * stated.value_n):
+        return
+    band = draft.force.force_n
+    within = Band(low=min(band.low, most_n), high=min(band.high, most_n))
+    draft.force = replace(draft.force, force_n=within, limit_n=most_n)
+    draft.named_most_n = min(most_n, draft.named_most_n or most_n)
+    draft.assumed.append(f"{words_of([stated])!r} is taken as a limit, as it is not asked for")
 
 
 def _note_tolerances(draft: _Draft, forces: Sequence[Force], rest: str) -> None:

@@ -122,9 +122,20 @@ def named_terms(forces: Sequence[Force], manner: Manner, task: ForceTerms) -> Fo
         band = Band(low=min(band.low, limit_n), high=min(band.high, limit_n))
         return ForceTerms(force_n=band, limit_n=limit_n, needs=needs)
     limit_n = default_limit_n(band)
-    if not values and band.middle >= task.force_n.middle:  # more than usual is asked for
+    if not values:  # a least bounds nothing from above
         limit_n = max(limit_n, task.limit_n)
     return ForceTerms(force_n=band, limit_n=limit_n, needs=needs)
+
+
+def stated_most(forces: Sequence[Force], stated: Sequence[Force]) -> Force | None:
+    """The smallest force that is stated above the ones that are asked for; None where none is.
+
+    "1 N. The alarm goes off at 1.2 N" asks for 1 N; no grip should pass the other number, whatever
+    was meant by it.
+    """
+    asked_n = max((f.value_n for f in forces if f.kind != "most"), default=math.inf)
+    above = [f for f in stated if f.kind != "least" and asked_n < f.value_n < math.inf]
+    return min(above, key=lambda force: force.value_n, default=None)
 
 
 def most_of(forces: Sequence[Force]) -> float:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from policies.instructions.english import words
 from policies.instructions.english.spelling import spelled
@@ -52,6 +52,7 @@ _OURS = re.compile(
 _THING = re.compile(
     r"\b(straw ?berr(?:y|ies)|berr(?:y|ies)|fruit|tomato|egg|peg|object|thing|sample|specimen|one)\b"
 )
+_LIKE = re.compile(r"\b(?:like|as if|as though)\b[^,.;]*")
 _VERB_OBJECT = re.compile(
     rf"\b{words.any_of('hold')}(?: (?:up|on|onto|hold|of|to|over|out|me|us|down|firm\w*|tight\w*|gent\w*|soft\w*|light\w*|and|or|\w+ing))*"
     rf"(?: (?:{words.any_of('fruit')}|the|#|my|your|our|\w+'s)\b| (?:a|an|another|some) (?:\w+ )?(?:straw ?berr(?:y|ies)|berr(?:y|ies)|fruit|one|specimen|sample|object|grip|grasp|hold)\b|(?=[.,;:!]|$| please| now| then| already| go| with| again| and))|"
@@ -128,7 +129,7 @@ def read_request(text: str) -> Request:
     clean = without_other_forces(in_digits(spelled(plain(text[:MAX_CHARACTERS]))))
     clean, numbers, stated = _meant(clean)
     verb = _HOLD.search(numbers.rest)
-    thing = _THING.search(numbers.rest)
+    thing = _THING.search(_LIKE.sub(" ", numbers.rest))
     return Request(
         text=text.strip(),
         numbers=numbers,
@@ -151,8 +152,12 @@ def _meant(clean: str) -> tuple[str, Quantities, str]:
         return clean, numbers, ""
     rest = read_quantities(statements.rest)
     is_left = rest.forces or rest.delta_n is not None
-    if (is_left and statements.rest != clean) or statements.is_elsewhere:
+    if statements.is_elsewhere:
         return statements.rest, rest, ""
+    if is_left and statements.rest != clean:
+        left = {(force.kind, force.value_n) for force in rest.forces}
+        stated = [force for force in numbers.forces if (force.kind, force.value_n) not in left]
+        return statements.rest, replace(rest, stated=tuple(stated)), ""
     return clean, numbers, f"{statements.words!r} asks for no force; say 'use ...' or 'at most ...'"
 
 
@@ -205,6 +210,7 @@ def _nothing_asked(numbers: Quantities) -> str:
         or numbers.unread
         or numbers.percentage
         or numbers.denied
+        or numbers.slip_mm is not None
     ):
         parts = sentences(numbers.rest)
         is_asked = any(

@@ -81,11 +81,28 @@ def refusal_of(text: str, whole: str = "") -> str:
         (_destroys, "it would destroy what is held: {}"),
         (_releases, "it asks to let go: {}"),
         (_contradicts, "it contradicts itself: {}"),
+        (_commands_the_arm, "it moves the arm and holds nothing: {}; 'tacgrasp jog' does that"),
         (_stops, "it asks to stop or not to touch: {}"),
     ):
         if found := find(text):
             return reason.format(found)
     return ""
+
+
+_ARM = re.compile(
+    r"(?:(?:please|robot|now|just|ok(?:ay)?|then|and|can you|could you)[, ]+)*(?P<command>"
+    r"(?:move|go|turn|rotate|drive|jog|shift|step)(?: (?:the|your) (?:arm|gripper|robot|hand|fingers?|"
+    r"tool))?(?: (?:a (?:bit|little)|slightly|further))? (?:up|down|left|right|forwards?|backwards?|"
+    r"back|home|away|sideways|in|out)(?:wards?)?(?: (?:a (?:bit|little)|again|more|slightly|(?:by )?"
+    r"[\d.,]+ ?(?:mm|cm|m|millimet\w+|centimet\w+|degrees?|°)))?|"
+    r"(?:close|shut) (?:the |your )?(?:gripper|fingers|hand|jaws))[.! ]*(?:please|now)?[.! ]*"
+)
+
+
+def _commands_the_arm(text: str) -> str:
+    """A text that is a command to the arm or the gripper alone; '' for any other."""
+    match = _ARM.fullmatch(text.strip())
+    return match["command"] if match else ""
 
 
 def _contradicts(text: str) -> str:

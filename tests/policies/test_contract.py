@@ -332,3 +332,57 @@ def test_a_most_above_the_task_s_limit_changes_nothing_and_is_no_origin():
     assert said.terms == STRAWBERRY
     assert said.origins["limit_n"] == said.origins["force_n"] == "the task"
     assert any("'at most 500 N' is above the task's limit" in note for note in said.assumed)
+
+
+@pytest.mark.parametrize(
+    ("instruction", "most_n"),
+    [
+        ("Hold it at 0.5 N, 0.6 N absolute max.", 0.6),
+        ("Hold it with 1 N, 1.1 N hard limit.", 1.1),
+        ("Hold it at 0.5 N and bail out at 0.6 N.", 0.6),
+        ("Hold it at 0.5 N, 0.6 N tops.", 0.6),
+        ("Hold it at 0.5 N but anything over 0.6 N is too much.", 0.6),
+        ("Hold it at 1 N; abort at 1.2 N.", 1.2),
+        ("Hold it with 1 N, emergency stop at 1.1 N.", 1.1),
+        ("Hold it with 0.5 N. Alarm threshold 0.6 N.", 0.6),
+        ("Hold it with 0.5 N, red line 0.6 N.", 0.6),
+        ("Hold it with 1 N, 1.2 N is the absolute limit.", 1.2),
+    ],
+)
+def test_no_number_that_is_stated_above_the_wish_is_passed(instruction, most_n):
+    held = read(instruction)
+    assert held.refused == ""
+    assert 0.95 * most_n <= held.terms.limit_n <= most_n
+    assert held.terms.force_n.high <= held.terms.limit_n
+
+
+@pytest.mark.parametrize(
+    ("instruction", "reason"),
+    [
+        ("Hold with 0.5 N and with 0.6 N.", "what each is for"),
+        ("1 N but never 1 N", "not to hold with"),
+        ("The limit is not 1 N", "not to hold with"),
+        ("-50 % more", "a sign and a direction"),
+        ("move up", "moves the arm"),
+        ("Close the gripper.", "moves the arm"),
+        ("pick the cat", "living being"),
+    ],
+)
+def test_what_has_no_plain_meaning_is_refused(instruction, reason):
+    assert reason in read(instruction).refused
+
+
+@pytest.mark.parametrize("instruction", [">= 0.5 N", "min 0.5 N", "Use at least 0.5 N."])
+def test_a_least_lowers_no_limit(instruction):
+    assert read(instruction).terms.limit_n == STRAWBERRY.limit_n
+
+
+@pytest.mark.parametrize("instruction", ["slip at most 0.5 mm", "Let it slip by at most 0.5 mm."])
+def test_a_bound_of_the_slip_asks_for_no_firmer_grip(instruction):
+    held = read(instruction)
+    assert held.terms == STRAWBERRY
+    assert held.slip_mm == 0.5
+
+
+def test_a_comparison_does_not_name_what_is_held():
+    assert read("Hold it like an egg.").summary == "hold the strawberry"

@@ -143,7 +143,8 @@ def read_forces(text: str) -> tuple[list[Force], str, str]:
         rest, end = f"{rest}{left} {MARK} ", stop
     rest = " ".join((rest + text[end:]).split())
     kept_forces = [force for force, kept in found if kept]
-    if denied and not kept_forces:
+    denied_n = {force.value_n for force, kept in found if not kept and force.words == denied}
+    if denied and denied_n.issuperset(force.value_n for force in kept_forces):
         return [], denied, rest
     kept_forces = kept_forces or [force for force, _ in found]
     bounds = {force.value_n for force in kept_forces if force.kind != "value"}

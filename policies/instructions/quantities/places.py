@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 
+from policies.instructions.quantities.force import MARK
 from policies.instructions.quantities.force_units import NUMBER, number
 
 _LENGTH = re.compile(rf"(?P<a>{NUMBER})\s*(?P<u>mm|millimet\w+|µm|μm|um|microns?|micromet\w+)\b")
@@ -48,6 +49,19 @@ def read_lengths(text: str) -> tuple[float | None, float | None]:
                 depth = mm
                 break
     return slip, depth
+
+
+_SLIP_BOUND = re.compile(
+    rf"(?:,? ?(?:and |but )?(?:let |allow |with |tolerate )?(?:it |a |any |at most |no )?)?"
+    rf"\bslip\w*(?: of)?(?: (?:is|by|must be|should be|stays?|to be|limit|bound))?,?"
+    rf"(?: (?:at most|up to|under|below|less than|no more than|within|limited to|max(?:imum)?))?"
+    rf" ?(?:<=?|≤|:|=)? ?{_LENGTH.pattern}"
+)
+
+
+def without_slip_bound(text: str) -> str:
+    """A text with ``MARK`` for the slip that it allows, which says nothing of how firm to grip."""
+    return _SLIP_BOUND.sub(f" {MARK}", text)
 
 
 def place_words(text: str) -> str:

@@ -18,7 +18,12 @@ from policies.instructions.quantities.force_units import NUMBER, UNIT, number
 from policies.instructions.quantities.forces import read_forces
 from policies.instructions.quantities.masses import Masses, without_masses
 from policies.instructions.quantities.numerals import in_digits
-from policies.instructions.quantities.places import AREA, place_words, read_lengths
+from policies.instructions.quantities.places import (
+    AREA,
+    place_words,
+    read_lengths,
+    without_slip_bound,
+)
 from policies.instructions.quantities.tolerances import with_plain_tolerances, without_lone
 from policies.instructions.quantities.unknown_units import (
     open_force,
@@ -33,6 +38,7 @@ class Quantities:
 
     Attributes:
         forces: Forces in their order; the ends of a range are a least and a most.
+        stated: Forces that are named beside them, and not asked for.
         delta_n: Force to add to the task's ('half a newton more'); None where none is named [N].
         factor: Factor on the task's force ('half as hard'); None where none is named.
         factor_words: The words that name it.
@@ -50,6 +56,7 @@ class Quantities:
     """
 
     forces: tuple[Force, ...] = ()
+    stated: tuple[Force, ...] = ()
     delta_n: float | None = None
     factor: float | None = None
     factor_words: str = ""
@@ -103,6 +110,7 @@ def read_quantities(text: str) -> Quantities:
     text, unitless = written_out(text)
     pressure = _PRESSURE.search(text)
     slip_mm, depth_mm = read_lengths(text)
+    text = without_slip_bound(text)
     area = AREA.search(text)
     delta_n, text = read_delta(text)
     forces, denied, text = read_forces(text)

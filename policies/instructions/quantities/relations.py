@@ -18,11 +18,12 @@ _BELOW = re.compile(
     r"shy of|sub)(?: the| a)?\s*-?$|<\s*$"
 )
 _MOST = re.compile(
-    r"(?:\b(?:less|lower|smaller) than or equal to|\b(?:at|under|below) or (?:under|below|at)|\b(?:ends|tops out|finish\w*|finishes)(?: \w+){0,3} (?:at|before)|\bstop\w*(?: \w+){0,3} before|(?<!not )(?<!never )\b(?:stop|quit|halt|cease|leave off|cut out|finish|pull up)(?:s|p?ing)?(?: \w+ing)?(?: (?:it|in|down|up|on it|on this|dead|short|the (?:berry|strawberry|fruit|fingers|jaws|gripper)))? at|"
+    r"(?:\b(?:less|lower|smaller) than or equal to|\b(?:at|under|below) or (?:under|below|at)|\b(?:ends|tops out|finish\w*|finishes)(?: \w+){0,3} (?:at|before)|\bstop\w*(?: \w+){0,3} before|(?<!not )(?<!never )\b(?:stop|quit|halt|cease|leave off|cut (?:out|off)|finish|pull up|abort|bail(?: out)?|trip|fault|e-?stop|shut (?:down|off)|give up|let go|back off|alarm)(?:s|p?p?ing|ed)?(?: \w+ing)?(?: (?:it|in|down|up|on it|on this|dead|short|the (?:berry|strawberry|fruit|fingers|jaws|gripper)))? at|"
     r"\bat (?:the )?(?:very |absolute )?most|\batmost|\bhard stop(?: at| of| is)?|\bup to|\b(?:as (?:hard|much|high|firm|far) as|no further than)|"
     r"\bmax(?:imum|imal(?:ly)?|ed)?\.?(?: \w+){0,3}?(?: of| is| at| to|:| =|=)?|"
-    r"\blimit(?:s|ed|ing)?(?: \w+){0,3}?(?: to| of| at| is|:| =|=)?|"
+    r"\blimit(?:s|ed|ing)?(?: (?!not\b|never\b)\w+){0,3}?(?: to| of| at| is|:| =|=)?|"
     r"(?<!bottle )(?<!screw )(?<!jar )(?<!pen )(?<!tube )(?<!vial )\bcap(?:s|ped|ping)?(?: \w+){0,3}?(?: at| to| of| is|:| =|=)?|\bceiling(?: of| is| at|:| =|=)?|"
+    r"\b(?:alarm|trip(?:ping)?|fault|safety|abort|stop|shut-?down|e-?stop|emergency|overload|warning)s?[ -](?:threshold|level|point|limit|value|mark|line)(?: of| is| at| to|:| =|=)?|\b(?:red|danger) ?line(?: of| is| at|:| =|=)?|"
     r"\b(?:upper|top) (?:\w+ )?(?:limit|bound|end)(?: \w+){0,2}?(?: of| is| at|:| =|=)?|\bpeak(?: \w+){0,2}?(?: of| is| at|:| =|=)?|"
     r"<=|≤|=<|\bnot to exceed|\bat (?:the )?worst|\bworst case|\bwithin|\bbounded (?:above )?(?:by|at)|\b(?:not|never)(?: let it)? (?:go|push|squeeze|press)(?: \w{1,4})?|\b(?:top|max|peak|level)(?:p?ing|s|p?ed)?(?: \w+)?(?: out)? at|\b(?:restrict|confin|constrain|throttl)\w*(?: \w+){0,3}? (?:to|at|by)|\b(?:may|can|could|might)(?: only| just| at most)? (?:be (?:raised|increased)|rise|go|climb|increase|grow|build|reach|extend)(?: up)?(?: to)?|\b(?:not|never|without|avoid\w*)(?: (?:ever|let|the|force|it|grip|even|quite|to|be|going|you|allow\w*|pressure|have|want|go|come|rise)){0,5} (?:reach(?:es|ing)?|hit(?:s|ting)?|get(?:s|ting)? (?:up )?to|attain\w*|ris(?:e|es|ing) to|climb\w* to|go(?:ing|es)? (?:up |all the way )?to)|\b(?:budget|allowance)(?: of| is|:)?|\bno more than|\bnowhere near|\b(?:allow(?:ed)?|permit(?:ted)?)(?: is (?:until|till|up to))?(?: (?:up )?to(?: (?:use|reach|rise to|climb to|go(?: up)? to))?)?|"
     r"\b(?:ease|eases|back|let)(?: \w+){0,2} (?:once|when|as soon as|at)(?: (?:you|it|we))?(?: (?:feel|reach|hit|see|measure|get to|read)\w*)?|\bfar (?:away )?from|\b(?:not|never)(?: (?:even|anywhere|get|go|come|be))* (?:close|near)(?: to)?|\bf[_ ]?max\s*[:=]?)"
@@ -46,8 +47,9 @@ _UNWANTED = (
     r"off[ -]limits|an? no[ -]?(?:no|go)|not (?:allowed|permitted|acceptable|tolerated|tolerable|necessary|needed|required|wanted|safe|ok(?:ay)?|an option|advisable|recommended))"
 )
 """What is said of a force that is too large."""
+_STRICT = r"(?:(?:absolute|hard|strict|firm|safety|upper|very|fixed|final|outer|allowed|permitted|allowable) )*"
 _MOST_AFTER = re.compile(
-    r"\s*(?:-|–|,|:)?\s*(?:(?:at |as )?(?:a |the )?max(?:imum|imal)?\b(?!\.?(?: of| is|:| =)? ?\d)|tops\b|at (?:the )?(?:very |absolute )?most\b|"
+    rf"\s*(?:-|–|,|:)?\s*(?:(?:(?:at|as|is|being) )?(?:an? |the |my |our )?{_STRICT}(?:max(?:imum|imal)?|(?:upper )?(?:limit|ceiling|cap)(?! is\b))\b(?!\.?(?: of| is|:| =)? ?\d)|tops\b|at (?:the )?(?:very |absolute )?most\b|"
     r"(?:or|and) (?:a (?:little|bit|touch) |slightly |even )?(?:less|below|under|lower|lighter|softer|gentler|smaller)\b(?! (?:no|any|all)\b)|(?: [a-z]+){1,3} at (?:the )?(?:very |absolute )?most\b|"
     r"[;,.]? ?(?:and )?(?:do not|never|not|but not) (?:\w+ ){0,2}(?:past|over|above|beyond|exceed|higher than) (?:it|that|this)\b|"
     r"(?:,? ?(?:and|but|yet|though) )?(?:absolutely |(?:under|in|on|by|at) )?(?:no|not|never|without)(?! need)(?: \w+){0,2} (?:more|higher|harder|above|over|further|beyond|past)\b"

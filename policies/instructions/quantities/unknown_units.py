@@ -6,7 +6,7 @@ import re
 from importlib import resources
 
 from policies.instructions.quantities.elisions import BEFORE_BOUND, BEFORE_VALUE
-from policies.instructions.quantities.force_units import LOOSE, NUMBER, UNIT
+from policies.instructions.quantities.force_units import ALONE, LOOSE, NUMBER, UNIT
 
 _WORDS = frozenset(
     re.findall(
@@ -47,6 +47,11 @@ _MALFORMED = re.compile(
 )
 
 
+_SIGNED_CHANGE = re.compile(
+    rf"(?:^|(?<=[\s,;:(]))[-−–] ?{NUMBER.removeprefix(ALONE)} ?(?:%|percent|per cent) "
+    r"(?:more|less|harder|softer|firmer|gentler|lighter|stronger|weaker|tighter|looser|higher|lower)\b"
+)
+"""'-50 % more'."""
 _SAFETY = re.compile(
     r"\bsafety (?:margin|factor)\b|\b(?:margin|factor) of safety\b|\border of magnitude\b"
 )
@@ -109,6 +114,8 @@ def unknown_force(text: str) -> str:
         return f"{match[0]!r} is no force; say it as '1.2 N'"
     if match := _OF_WEIGHT.search(text):
         return f"{match[0]!r} is a multiple of a weight; say the force in newtons, as in '1.5 N'"
+    if match := _SIGNED_CHANGE.search(text):
+        return f"{match[0].strip()!r} has a sign and a direction; say 'half as hard' or '20 % less'"
     if match := _FORMULA.search(text):
         return f"{match[0]!r} is a formula; name the force as one number, as in '1.5 N'"
     if match := _DERIVED.search(text):
