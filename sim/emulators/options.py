@@ -5,13 +5,14 @@ Importing this module is cheap: it loads no emulator, no world and no torch.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 from sim.emulators.dynamixel.options import DynamixelOptions
 from sim.emulators.taxels.options import TaxelOptions
-from sim.emulators.ur.options import UrOptions
+from sim.emulators.ur.options import UrOptions, check_loopback
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -30,6 +31,9 @@ class RigOptions:
         held: start with the object gripped between the fingers
         centred: start with the object in the middle of the pad
         host: loopback address of the arm; by default one that is free
+
+    Raises:
+        ValueError: The host is no loopback address, or the force is none.
     """
 
     object: str = "strawberry"
@@ -43,6 +47,12 @@ class RigOptions:
     held: bool = False
     centred: bool = False
     host: str | None = None
+
+    def __post_init__(self) -> None:
+        if self.host is not None:
+            check_loopback(self.host)
+        if self.first_force_n is not None and not 0 < self.first_force_n < math.inf:
+            raise ValueError(f"--first-force-n must be above 0 N, got {self.first_force_n:g}")
 
 
 OPTIONS: Mapping[str, type] = {

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import select
 import sys
@@ -50,6 +51,10 @@ class JogFlags:
     seed: int = 0
     force_n: float | None = None
     open: bool = False
+
+    def __post_init__(self) -> None:
+        if self.force_n is not None and not 0 < self.force_n < math.inf:
+            raise UsageError(f"--force-n must be above 0 N, got {self.force_n:g}")
 
 
 def main(argv: Sequence[str]) -> int:

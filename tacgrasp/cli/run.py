@@ -133,7 +133,8 @@ def _run(config: RunConfig, contract: Contract, events: EventFile, flags: RunFla
     with ExitStack() as stack:
         with working("loading the policy and connecting the rig"):
             policy, rig = _connect(config, stack)
-        start = f"{config.task} with {policy.name}, seed {config.seed}: {config.instruction}"
+        seed = "" if config.devices == "hardware" else f", seed {config.seed}"
+        start = f"{config.task} with {policy.name}{seed}: {config.instruction}"
         warning = unfelt_slips(rig, config)
         warnings = [f"warning: {warning}"] if warning else []
         for text in (start, *contract_lines(contract), *warnings):

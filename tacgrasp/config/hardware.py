@@ -14,7 +14,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Discriminator, Field, SerializeAsAny, Tag, model_validator
 
 from tacgrasp.base.errors import UsageError
-from tacgrasp.base.settings import Number, SettingsBase, Vector
+from tacgrasp.base.settings import Number, RotationVector, SettingsBase, Vector
 from tacgrasp.drivers.dynamixel.settings import DynamixelSettings
 from tacgrasp.drivers.gelsight.settings import GelSightSettings
 from tacgrasp.drivers.plugin import (
@@ -84,13 +84,16 @@ class StartConfig(SettingsBase):
         position_m: Position of the TCP [m, base frame].
         rotvec_rad: Rotation vector of the TCP [rad].
         max_way_mm: Largest distance between the arm's current pose and the start pose [mm].
+        max_turn_rad: Largest angle between the tool's current orientation and that of the start
+            pose [rad].
         speed_m_s: Speed of the move to the start pose [m/s].
     """
 
     at: Literal["here", "pose"] = "here"
     position_m: Vector | None = None
-    rotvec_rad: Vector | None = None
+    rotvec_rad: RotationVector | None = None
     max_way_mm: Number = Field(default=100.0, gt=0, le=1000)
+    max_turn_rad: Number = Field(default=0.5, gt=0, le=3.1)
     speed_m_s: Number = Field(default=0.02, gt=0, le=0.1)
 
     @model_validator(mode="after")

@@ -26,6 +26,11 @@ GOAL_BANDS = ("force_n", "depth_mm", "area_share", "x_mm", "y_mm")
 EndAction = Literal["hold", "release"]
 
 
+NARROWEST_BAND = 1.1
+"""Smallest end of a force band over its beginning. Our choice: the felt force varies by some
+percent from frame to frame (``policies.force_terms.LEAST_TOLERANCE``)."""
+
+
 class GoalConfig(SettingsBase):
     """Bands of a good grasp, each [low, high]; the contract of an episode is made from them.
 
@@ -56,6 +61,11 @@ class GoalConfig(SettingsBase):
                 raise ValueError(f"{name} must be [low, high], got [{low}, {high}]")
         if not self.force_n[0] > 0:
             raise ValueError(f"force_n must begin above 0 N, got {list(self.force_n)}")
+        if self.force_n[1] < NARROWEST_BAND * self.force_n[0]:
+            raise ValueError(
+                f"force_n {list(self.force_n)} is narrower than a grip can be held; its end must "
+                f"be at least {NARROWEST_BAND:g} times its beginning"
+            )
         end, least_n = ("foot", self.force_n[0]) if self.needs else ("top", self.force_n[1])
         if self.limit_n is not None and self.limit_n < least_n:
             raise ValueError(

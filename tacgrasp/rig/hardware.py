@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import datetime
 import logging
+import math
 import time
 from collections.abc import Callable, Sequence
 from contextlib import ExitStack
@@ -20,7 +21,7 @@ from cltp.errors import TouchError
 from cltp.tactile.cloud import Stamp
 from primitives.devices import Arm, Gripper, Pose
 from primitives.errors import LimitError, RobotError
-from primitives.limits import check_workspace, distance_mm
+from primitives.limits import check_workspace, distance_mm, turn_rad
 from tacgrasp.config.hardware import HardwareConfig, SensorSettings, StartConfig
 from tacgrasp.config.schema import RunConfig
 from tacgrasp.drivers.check import Finding, finding, force_limit_problem
@@ -53,7 +54,10 @@ _SensorDriver = tuple[Callable[..., WatchedSensor], Callable[[], Sequence[Findin
 log = logging.getLogger(__name__)
 
 AT_START_MM = 0.5
-"""Largest distance from the start pose at which the arm needs no move to it."""
+"""Largest distance from the start pose at which the arm needs no move to it [mm]."""
+
+AT_START_RAD = 0.01
+"""Largest turn from it at which the arm needs none [rad]."""
 
 
 class RealClock:
@@ -282,8 +286,17 @@ def start_pose(start: StartConfig) -> Pose | None:
 def _way_problem(start: StartConfig, current: Pose) -> str:
     """Why the arm may not go from a pose to its start by itself; empty where it may."""
     pose = start_pose(start)
-    offset_mm = 0.0 if pose is None else distance_mm(current, pose)
-    if offset_mm <= start.max_way_mm:
+    if pose is None:
+        return ""
+    if (turned_rad := turn_rad(current, pose)) > start.max_turn_rad:
+        now = ", ".join(f"{value:.3f}" for value in current.rotvec_rad)
+        return (
+            f"the tool is turned by {turned_rad:.2f} rad ({math.degrees(turned_rad):.0f}°) from "
+            f"its start pose, more than the {start.max_turn_rad:g} rad that it may turn by itself "
+            "(hardware.start.max_turn_rad); turn it at the pendant, or, if it stands as it should, "
+            f"set hardware.start.rotvec_rad to [{now}]"
+        )
+    if (offset_mm := distance_mm(current, pose)) <= start.max_way_mm:
         return ""
     return (
         f"the arm stands {offset_mm:.0f} mm from its start pose, more than the "
@@ -305,7 +318,8 @@ def _go_to_start(arm: Arm, start: StartConfig, config: RunConfig) -> Pose:
     check_workspace(pose, config.limits())
     if problem := _way_problem(start, current):
         raise RobotError(problem)
-    if config.dry_run or distance_mm(current, pose) <= AT_START_MM:
+    is_there = distance_mm(current, pose) <= AT_START_MM and turn_rad(current, pose) <= AT_START_RAD
+    if config.dry_run or is_there:
         return pose
     arm.move_to(pose, speed_m_s=start.speed_m_s)
     return pose

@@ -38,6 +38,7 @@ class EventFile:
         self._path = path
         self._file: FileIO | None = None
         self._is_array = self._is_empty = False
+        self._began_s: float | None = None
         self.problem = ""
 
     def __enter__(self) -> EventFile:
@@ -88,13 +89,15 @@ class EventFile:
         if record.contract is not None:
             self.contract(record.contract)
         decision, executed = record.decision, record.executed
+        if self._began_s is None:
+            self._began_s = record.stamp.monotonic_s
         felt = record.felt_force_n
         self._write(
             "step",
             {
                 "index": record.index,
                 "phase": record.phase,
-                "t_s": record.stamp.monotonic_s,
+                "t_s": record.stamp.monotonic_s - self._began_s,
                 "text": None if decision is None else decision.text,
                 "action": None if decision is None else decision.action,
                 "success": None if decision is None else decision.success,

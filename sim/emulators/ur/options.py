@@ -18,6 +18,23 @@ UNLOCK_AFTER_S = 5.0
 """Least time from a protective stop to its release [s]. Source: the dashboard's documentation."""
 
 
+def check_loopback(host: str) -> None:
+    """Check the address of an emulator, which has no authentication.
+
+    Raises:
+        ValueError: It is no loopback address.
+    """
+    try:
+        is_loopback = ipaddress.ip_address(host).is_loopback
+    except ValueError:
+        is_loopback = False
+    if not is_loopback:
+        raise ValueError(
+            f"--host must be a loopback address such as 127.0.0.2, got {host!r}: an emulator has "
+            "no authentication"
+        )
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class UrOptions:
     """A UR controller: dashboard, script and RTDE ports on a loopback address.
@@ -44,12 +61,4 @@ class UrOptions:
     world_port: int | None = None
 
     def __post_init__(self) -> None:
-        try:
-            is_loopback = ipaddress.ip_address(self.host).is_loopback
-        except ValueError:
-            is_loopback = False
-        if not is_loopback:
-            raise ValueError(
-                f"--host must be a loopback address such as 127.0.0.2, got {self.host!r}: an "
-                "emulator has no authentication"
-            )
+        check_loopback(self.host)

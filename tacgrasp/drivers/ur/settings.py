@@ -9,7 +9,7 @@ from typing import Literal
 
 from pydantic import Field, model_validator
 
-from tacgrasp.base.settings import Number, SettingsBase, Vector
+from tacgrasp.base.settings import FlangeOffset, Number, RotationVector, SettingsBase, Vector
 
 
 class UrSettings(SettingsBase):
@@ -19,8 +19,8 @@ class UrSettings(SettingsBase):
         kind: Name of the driver.
         host: Address of the controller.
         payload_kg: Mass of gripper, sensor and held object [kg].
-        payload_cog_m: Centre of gravity of the payload in the flange frame [m].
-        tcp_offset_m: Position of the tool centre point (TCP) in the flange frame [m].
+        payload_cog_m: Centre of gravity of the payload in the flange frame [m], within 1 m.
+        tcp_offset_m: Position of the tool centre point (TCP) in the flange frame [m], within 1 m.
         tcp_offset_rad: Rotation vector of the TCP in the flange frame [rad].
         workspace_low_m: Lower corner of the box that the TCP must stay in [m, base frame].
         workspace_high_m: Upper corner of the box [m, base frame].
@@ -45,9 +45,9 @@ class UrSettings(SettingsBase):
     kind: Literal["ur"] = "ur"
     host: str = Field(min_length=1)
     payload_kg: Number = Field(ge=0, le=20)
-    payload_cog_m: Vector = (0.0, 0.0, 0.0)
-    tcp_offset_m: Vector = (0.0, 0.0, 0.0)
-    tcp_offset_rad: Vector = (0.0, 0.0, 0.0)
+    payload_cog_m: FlangeOffset = (0.0, 0.0, 0.0)
+    tcp_offset_m: FlangeOffset = (0.0, 0.0, 0.0)
+    tcp_offset_rad: RotationVector = (0.0, 0.0, 0.0)
     workspace_low_m: Vector
     workspace_high_m: Vector
     max_speed_m_s: Number = Field(default=0.4, gt=0, le=1)

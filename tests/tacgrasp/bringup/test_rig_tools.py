@@ -83,6 +83,8 @@ def test_every_kind_of_emulator_is_explained(capsys):
         (["toaster"], "got 'toaster'"),
         (["taxels", "--rate-hz", "9000"], "1 to 200 frames a second"),
         (["ur", "--host", "0.0.0.0"], "loopback address"),
+        (["rig", "--host", "8.8.8.8"], "loopback address"),
+        (["rig", "--first-force-n", "-1"], "must be above 0 N, got -1"),
         (["dynamixel", "--servos", "3"], "1 or 2 servos, got 3"),
         (["rig", "--colour", "red"], "--colour"),
     ],

@@ -133,6 +133,9 @@ BAD_FIELDS = {
     "empty address": ("hardware.arm.host", "", "host must have at least 1 character"),
     "no path": ("hardware.gripper.calibration", 5, "must be the path of a file, got 5"),
     "not finite": ("hardware.start.position_m", [float("nan"), 0, 0], "finite"),
+    "millimetres": ("hardware.arm.tcp_offset_m", [0, 0, 150], "longer than 1 m; is it in metres"),
+    "centre in millimetres": ("hardware.arm.payload_cog_m", [0, 0, 60], "is it in metres"),
+    "degrees": ("hardware.start.rotvec_rad", [180, 0, 0], "whole turn; is it in radians"),
     "half a pose": ("hardware.start.rotvec_rad", None, "needs position_m and rotvec_rad"),
     "slow driver": ("hardware.arm.max_speed_m_s", 0.3, "arm.max_speed_m_s 0.4 is above hardware"),
     "gentle driver": (
@@ -169,6 +172,11 @@ BAD_DEVICES = {
         "z = 0.4100 m would leave the workspace",
     ),
     "start too far": ("hardware.start.max_way_mm", 1.0, "more than the 1 mm that it may go"),
+    "start turned": (
+        "hardware.start.rotvec_rad",
+        [0, 0, 0],
+        "more than the 0.5 rad that it may turn",
+    ),
 }
 
 
@@ -371,6 +379,7 @@ def test_doctor_names_a_start_that_a_run_would_refuse(rig, tmp_path, capsys):
             "way to start",
             "10 mm from",
         ),
+        ("start", {"rotvec_rad": [0, 0, 0]}, "way to start", "turned by 3.14 rad (180°)"),
         ("gripper", {"max_force_n": 80}, "largest force", "80 N is beyond this gripper"),
     ],
 )

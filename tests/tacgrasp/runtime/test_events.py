@@ -94,7 +94,9 @@ def test_the_command_writes_an_array_from_contract_to_end(tmp_path):
     path = tmp_path / "run.json"
     argv = ["--policy", "rules", "--record", str(tmp_path / "episodes"), "--json", str(path)]
     assert main(argv) == 0
-    events = [event["event"] for event in json.loads(path.read_text("utf-8"))]
+    written = json.loads(path.read_text("utf-8"))
+    assert written[1]["t_s"] == 0.0 < written[2]["t_s"]  # since the first step, as on the screen
+    events = [event["event"] for event in written]
     assert (events[0], events[-1]) == ("contract", "end")
     assert set(events[1:-1]) == {"step"}
     end = json.loads(path.read_text("utf-8"))[-1]
