@@ -303,9 +303,17 @@ _UNIT_BEHIND = re.compile(
 """'What force lies in the middle of the band? Newtons.'"""
 
 
+_ALSO_IN = re.compile(
+    r"(?P<asked>[^?]+)\?\s+(?:and|also|and also),? in (?P<unit>[a-zµ]+²?)(?:,? (?:please|too))?[.?! ]*",
+    re.I,
+)
+"""'How deep is it? And in inches?', in one line."""
+
+
 def plainer(question: str) -> str:
     """A question without address, thanks and tag, and without the denial that expects 'yes'."""
     question = _HOW_FAR_AWAY.sub("", _HOWS.sub(r"\g<how> is ", question))
+    question = _ALSO_IN.sub(r"\g<asked>? \g<asked> in \g<unit>?", question)
     question = _UNIT_BEHIND.sub(lambda unit: f" in {unit['unit']}?", question)
     text = _THOU.sub("thou", " ".join(_CONSTANT.sub("", question).split()))
     text = _SQUARED.sub(

@@ -126,6 +126,13 @@ _OF_GRIP = re.compile(r"\b(?:it|this)\b.*\b(?:hold|lift|carry|slip|drop)\b")
 """'Is it enough to hold it?', which is about the grip and not about a number."""
 
 
+_OF_ITS_OWN = re.compile(
+    r"(?:what|which) (?:\w+ )?(?:force|depth|area|size|indentation|load|squeeze|pressure|position|"
+    r"offset|x|y|mass|weight)(?: value| reading)? (?:is it|does it have|do you (?:feel|read))\b"
+)
+"""'What force is it?' asks for what it names, whatever was asked before."""
+
+
 def of_number(question: str, about: Meaning | None, earlier: Meaning | None) -> Calculated | None:
     """What a follow-up asks of the number before it; None where it asks for something else.
 
@@ -141,6 +148,8 @@ def of_number(question: str, about: Meaning | None, earlier: Meaning | None) -> 
     if is_bound and _OFF.fullmatch(without_lead(question).strip(" ?.!")):
         return Calculated(truth=f"abs(force_n - {term.factor})", unit=unit)
     core = in_words(without_lead(question)).lower().strip(" ?.!")
+    if _OF_ITS_OWN.match(core):
+        return None
     core = _BOUND_TAG.sub(r"\g<bound>", core)
     core = _THAT_IS.sub(r"is that \g<what>", core)
     if term.dimension == "fraction":

@@ -228,7 +228,10 @@ def test_a_follow_up_points_at_what_was_asked_before(questions, query, monkeypat
 
 @pytest.mark.parametrize(
     "question",
-    ["How deep is it?", "Is it a sphere?", "Is it safe to lift?", "Is it over 2 mm deep?"],
+    [
+        *("How deep is it?", "Is it a sphere?", "Is it safe to lift?", "Is it over 2 mm deep?"),
+        *("What depth is it?", "What area is it?"),
+    ],
 )
 def test_a_number_before_does_not_change_what_stands_alone(question):
     alone = understood_by_grammar(question).query
