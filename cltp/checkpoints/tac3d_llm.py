@@ -69,7 +69,7 @@ def load_clip(folder: Path) -> Towers:
         TouchError: As ``cltp.encoder.clip_towers.load_towers``; or it is one of ours, by its
             tokenizer, without a manifest.
     """
-    require_files(folder)
+    require_files(folder, command=f"tacgrasp train clip --out {folder.parent}")
     check_manifest(folder, required=False)
     check_sizes(folder)
     towers = load_towers(folder)

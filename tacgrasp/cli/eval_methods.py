@@ -263,10 +263,27 @@ def _checked(flags: EvaluationFlags) -> Path | None:
     if not isinstance(flags, RealTouchFlags) or flags.real is None:
         contacts_in(flags.data, command="tacgrasp data generate")
     if isinstance(flags, RealTouchFlags):
-        check_ending(flags.out, ".csv")
+        _check_predictions(flags)
     if isinstance(flags, RetrievalFlags) and flags.page is not None:
         check_ending(flags.page, ".html")
     return writable(flags.json)
+
+
+def _check_predictions(flags: RealTouchFlags) -> None:
+    """Check where predictions go, which replace earlier ones and nothing else."""
+    from cltp.tactile.states import CLASSES
+
+    check_ending(flags.out, ".csv")
+    if flags.real is None or not flags.out.is_file() or not flags.out.stat().st_size:
+        return
+    with flags.out.open(encoding="utf-8", errors="replace") as file:
+        header = file.readline().rstrip().split(",")
+    columns = ["file", *CLASSES]
+    if header[: len(columns)] != columns or not any("_" in name for name in header):
+        raise UsageError(
+            f"--out {flags.out} exists and holds no predictions, so it is not replaced; name "
+            "another file"
+        )
 
 
 def _print(results: Sequence[Result], json_path: Path | None, flags: RealTouchFlags) -> None:

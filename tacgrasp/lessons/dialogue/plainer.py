@@ -304,7 +304,8 @@ _UNIT_BEHIND = re.compile(
 
 
 _ALSO_IN = re.compile(
-    r"(?P<asked>[^?]+)\?\s+(?:and|also|and also),? in (?P<unit>[a-zµ]+²?)(?:,? (?:please|too))?[.?! ]*",
+    r"(?P<asked>[^?]+)\?\s+(?:and|also|and also),? in (?P<unit>[a-zµ]+²?)"
+    r"(?:,? (?:please|too))?[.?! ]*",
     re.I,
 )
 """'How deep is it? And in inches?', in one line."""

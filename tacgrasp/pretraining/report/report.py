@@ -13,6 +13,7 @@ from pathlib import Path
 from cltp.atomic_write import write_atomically
 from tacgrasp.base.errors import UsageError
 from tacgrasp.base.html_page import render_page
+from tacgrasp.base.result_file import check_replaceable
 from tacgrasp.pretraining.report.caption_table import caption_section
 from tacgrasp.pretraining.report.failure_sections import failure_sections
 from tacgrasp.pretraining.report.failures import load_failures
@@ -48,13 +49,15 @@ def report(results: Path, out: Path, *, weights: Path | None = None) -> list[Pat
         weights: Folder of all methods, whose training curves are shown too.
 
     Raises:
-        UsageError: There is no such folder, or the pages can't be written.
+        UsageError: There is no such folder, or the pages can't be written, or would replace one of
+            somebody else's.
         TouchError: Results are damaged, or single ones of different data.
     """
     if not results.is_dir():
         raise UsageError(
             f"no folder {results}; `tacgrasp eval row` makes rows, `tacgrasp eval probe` others"
         )
+    check_replaceable(out / "pretraining.md", flag="--out")
     sections = _sections(results, weights)
     plots, html_page = out / "pretraining-plots", "pretraining.html"
     content = {"sections": sections, "plots": plots.name, "html_page": html_page}

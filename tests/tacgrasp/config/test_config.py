@@ -39,7 +39,7 @@ def test_the_tasks_go_from_gentle_to_firm() -> None:
 def test_a_band_that_no_grip_can_keep_is_refused(tmp_path: Path) -> None:
     path = tmp_path / "t.yaml"
     path.write_text(MINIMAL.replace("force_n: [1, 2]", "force_n: [0.5, 0.5]"))
-    with pytest.raises(UsageError, match="at least 1.1 times its beginning"):
+    with pytest.raises(UsageError, match=r"at least 1\.1 times its beginning"):
         load(str(path))
 
 

@@ -121,6 +121,18 @@ def test_a_trained_method_says_how_it_came_about_and_is_not_trained_again(
     assert weights.stat().st_mtime_ns == before
 
 
+@pytest.mark.parametrize("name", ["labels.csv", "mine.csv"])
+def test_predictions_replace_no_table_of_labels(
+    name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    argv = ["eval", "zero-shot", *real_touches(tmp_path / "touches")]
+    argv[-1] = str(tmp_path / "touches" / name)
+    (tmp_path / "touches/mine.csv").write_text("my precious\n")
+    before = Path(argv[-1]).read_bytes()
+    assert "exists and holds no predictions" in complaint(argv, capsys)
+    assert Path(argv[-1]).read_bytes() == before
+
+
 def test_tables_are_measured_stored_and_reported(
     places: list[str], tmp_path: Path, quick_probes: None
 ) -> None:

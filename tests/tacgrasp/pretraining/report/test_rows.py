@@ -15,6 +15,7 @@ from cltp.tactile.states import CLASSES
 from cltp.train.methods import METHODS
 from cltp.train.recipes import CltpRecipe
 from tacgrasp.__main__ import main
+from tacgrasp.base.errors import UsageError
 from tacgrasp.datasets.recipes import FullRecipe, Tcl3dRecipe
 from tacgrasp.pretraining.report.report import report
 from tacgrasp.pretraining.report.row_file import RowFile, load_rows, measured, missing, save_row
@@ -179,6 +180,14 @@ def test_seeds_are_averaged_but_a_marked_row_stands_by_itself(tmp_path: Path) ->
     page = (tmp_path / "pretraining.md").read_text()
     assert "| 55.0 ± 5.0 |" in page
     assert "| 90.0 |" in page
+
+
+def test_a_page_of_somebody_else_s_stays(tmp_path: Path) -> None:
+    notes = tmp_path / "pretraining.md"
+    notes.write_text("my own notes")
+    with pytest.raises(UsageError, match="is no earlier result"):
+        report(tmp_path, tmp_path)
+    assert notes.read_text() == "my own notes"
 
 
 def test_a_page_of_no_rows_is_whole_and_names_every_command(tmp_path: Path) -> None:
