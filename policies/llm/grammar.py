@@ -10,7 +10,7 @@ Not here: reading such a text back (``policies.llm.parse``).
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import combinations
@@ -152,6 +152,7 @@ def caption_grammar(
     sensor: SensorSpec | None,
     nouns: Sequence[str] = NOUNS,
     numbers: Mapping[str, str] | None = None,
+    cut: Collection[Side] | None = None,
 ) -> Grammar:
     """The grammar of a caption with its numbers, as ``policies.llm.text.caption_text`` words it.
 
@@ -159,9 +160,12 @@ def caption_grammar(
         sensor: The sensor; None for any.
         nouns: Which of ``NOUNS`` are said.
         numbers: As for ``step_grammar``.
+        cut: The sides that are said to cut the contact off; None leaves them open.
     """
     words, rest = _caption(ranges_of(sensor), tuple(nouns))
     rest = _with_numbers(rest, numbers or {})
+    if cut is not None:
+        rest = (*rest[:-1], TextChoice(CUT, (_cut_by(tuple(sorted(cut))),)))
     options = [Option(one.value, one.text, one.rival, rest) for one in words.options]
     options.append(Option(NOTHING_TOUCHES, f"{NO_CONTACT} 0.00 mm, 0.00 N."))
     return (TextChoice(words.name, tuple(options)),)
@@ -272,7 +276,11 @@ def _cut() -> TextChoice:
     """The sides that cut the contact off, and the full stop."""
     names = sorted(Side)
     subsets = [sides for count in range(len(names) + 1) for sides in combinations(names, count)]
-    return TextChoice(CUT, tuple(Option(" ".join(each), f"{cut_text(each)}.") for each in subsets))
+    return TextChoice(CUT, tuple(map(_cut_by, subsets)))
+
+
+def _cut_by(sides: Sequence[Side]) -> Option:
+    return Option(" ".join(sides), f"{cut_text(sides)}.")
 
 
 @lru_cache(64)

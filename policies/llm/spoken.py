@@ -45,7 +45,7 @@ def caption_reply(
     doubt: bool = False,
     ranges: bool = False,
 ) -> Reply:
-    """The model's caption of a contact, pooled with the heads' words, and with their numbers.
+    """The model's caption of a contact, pooled with the heads' words, with their numbers and cuts.
 
     Args:
         talker: The model.
@@ -61,7 +61,9 @@ def caption_reply(
         talker.reply_to,
         felt.touch,
         CAPTION_REQUEST,
-        grammar=caption_grammar(sensor, numbers=numbers),
+        grammar=caption_grammar(
+            sensor, numbers=numbers, cut=state.cut if state.in_contact else None
+        ),
         draft=caption_text(state, ends=ends),
         doubt_below=None if doubt else SURE,
     )

@@ -53,6 +53,13 @@ _FUNCTIONS: Mapping[str, tuple[Sequence[int], Callable[..., float]]] = {
 """Functions, and how many arguments they may have."""
 
 
+_CONDITION_NAMES = frozenset(("contact", "cut", "cut_left", "cut_right", "cut_top", "cut_bottom"))
+_WORD_NAMES = frozenset(
+    (*CLASSES, "cut_sides", "wholeness", "side_x", "side_y", "worse_axis", "force_band", "action",
+     "reason")
+)  # fmt: skip
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TruthValue:
     """Value of an expression in a scene.
@@ -179,6 +186,11 @@ class Expression:
         is_choice = isinstance(self._tree, ast.IfExp) and len(found) == len(words(self._tree))
         return tuple(dict.fromkeys(found)) if is_choice else ()
 
+    @cached_property
+    def result(self) -> str:
+        """What it comes to: 'number', 'condition' or 'word'; '' where it can be several."""
+        return _result_of(self._tree)
+
     def _check(self, node: ast.AST) -> None:
         """Refuse all that is not listed in the module's docstring."""
         match node:
@@ -194,6 +206,8 @@ class Expression:
                 raise ValueError(
                     f"{self.text!r}: a truth's power must be a number from 0 to {MAX_POWER}"
                 )
+            case ast.BinOp(op=ast.Div(), right=ast.Constant(value=0)):
+                raise ValueError(f"{self.text!r} divides by 0")
             case ast.BinOp(left=left, op=op, right=right) if type(op) in _ARITHMETIC:
                 parts = [left, right]
             case ast.BoolOp(values=values):
@@ -314,3 +328,19 @@ def _compare(comparison: Callable[[Any, Any], bool], a: Any, b: Any, margins: li
         raise TypeError(f"{a!r} and {b!r} have no order")
     margins.append(abs(float(a) - float(b)))
     return comparison(a, b)
+
+
+def _result_of(node: ast.AST) -> str:
+    match node:
+        case ast.Compare() | ast.BoolOp() | ast.UnaryOp(op=ast.Not()):
+            return "condition"
+        case ast.Name(id=name) if name in _CONDITION_NAMES:
+            return "condition"
+        case ast.Name(id=name) if name in _WORD_NAMES or name in _WORDS:
+            return "word"
+        case ast.Constant(value=str()):
+            return "word"
+        case ast.IfExp(body=body, orelse=orelse):
+            result = _result_of(body)
+            return result if result == _result_of(orelse) else ""
+    return "number"

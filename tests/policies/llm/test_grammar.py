@@ -383,3 +383,12 @@ def test_success_and_a_band_too_narrow_are_told_apart() -> None:
     assert parse_reply(f"{contact} {goal_text(BAND)} {advice_text(narrow)}").advice == narrow
     up = Advice(action=Primitive.MOVE_UP, success=False, reason=Reason.CUT)
     assert parse_reply(f"{contact} {goal_text(BAND)} {advice_text(up)}").advice == up
+
+
+def test_a_caption_says_the_cuts_that_it_is_given():
+    rng = random.Random(0)
+    for cut in ((), (Side.LEFT,), (Side.TOP, Side.LEFT)):
+        grammar = caption_grammar(MINI, cut=cut)
+        for text in (random_text(grammar, rng) for _ in range(20)):
+            parsed = parse_caption_reply(text)
+            assert not parsed.state.in_contact or parsed.cut == frozenset(cut)

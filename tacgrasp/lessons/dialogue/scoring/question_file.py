@@ -34,6 +34,13 @@ BETWEEN = " | "
 COLUMNS = ("family", "question", "kind", "truth", "tolerance")
 UNDECIDABLE = (AnswerKind.UNKNOWABLE, AnswerKind.OFF_TOPIC)
 
+_RESULTS = {
+    AnswerKind.NUMBER: "number",
+    AnswerKind.YES_NO: "condition",
+    AnswerKind.CHOICE: "word",
+}
+"""What a truth of each kind comes to; that of a text may be anything."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class QuestionRow:
@@ -109,6 +116,13 @@ def question_row(row: Mapping[str, str]) -> QuestionRow:
         raise ValueError(f"a question of kind {kind} needs {wanted}")
     if len(truths) > 1 and kind is not AnswerKind.TEXT:
         raise ValueError(f"a question of kind {kind} needs one truth, got {len(truths)}")
+    wanted = _RESULTS.get(kind)
+    for truth in truths:
+        if wanted and truth.result and truth.result != wanted:
+            raise ValueError(
+                f"a question of kind {kind} needs a {wanted} as its truth, and {truth.text!r} is a "
+                f"{truth.result}"
+            )
     return QuestionRow(
         family=row["family"].strip() or kind.value,
         question=row["question"].strip(),

@@ -3,7 +3,7 @@ import pytest
 from tacgrasp.base.errors import UsageError
 from tacgrasp.lessons.dialogue.expression import Expression
 from tacgrasp.lessons.dialogue.meaning import AnswerKind
-from tacgrasp.lessons.dialogue.scoring.question_file import read_questions
+from tacgrasp.lessons.dialogue.scoring.question_file import question_row, read_questions
 
 HEAD = "family,question,kind,truth,tolerance\n"
 
@@ -60,3 +60,18 @@ def test_a_file_without_its_columns_is_refused(tmp_path):
         read_questions(written(tmp_path, "question,truth\nHow deep?,depth_mm\n"))
     with pytest.raises(UsageError, match="can't be read"):
         read_questions(tmp_path / "none.csv")
+
+
+@pytest.mark.parametrize(
+    ("kind", "truth", "reason"),
+    [
+        ("number", "depth_mm / 0", "divides by 0"),
+        ("number", "depth_mm > 0.3", "needs a number"),
+        ("choice", "depth_mm", "needs a word"),
+        ("yes_no", "shape", "needs a condition"),
+    ],
+)
+def test_a_truth_of_another_kind_is_refused(kind, truth, reason):
+    row = {"family": "", "question": "What?", "kind": kind, "truth": truth, "tolerance": ""}
+    with pytest.raises(ValueError, match=reason):
+        question_row(row)
