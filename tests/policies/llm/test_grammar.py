@@ -390,5 +390,5 @@ def test_a_caption_says_the_cuts_that_it_is_given():
     for cut in ((), (Side.LEFT,), (Side.TOP, Side.LEFT)):
         grammar = caption_grammar(MINI, cut=cut)
         for text in (random_text(grammar, rng) for _ in range(20)):
-            parsed = parse_caption_reply(text)
-            assert not parsed.state.in_contact or parsed.cut == frozenset(cut)
+            is_empty = " 0.00 mm, 0.00 N." in text
+            assert is_empty or parse_caption_reply(text).cut == frozenset(cut)
