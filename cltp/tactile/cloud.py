@@ -118,6 +118,12 @@ def _check(points: NDArray[np.float32], sensor: SensorSpec) -> None:
             f"the cloud spans only {extent:.3g} in x and y where {sensor.name} sees "
             f"{sensor.width_mm:.1f}×{sensor.height_mm:.1f} mm; is it in metres? Multiply by 1000"
         )
+    if (extents < 1.05 * half / 5).all() and (extents > 0.85 * half / 5).all():
+        x, y = extents
+        raise TouchError(
+            f"the cloud spans {x:.3g} × {y:.3g}, a tenth of the {sensor.width_mm:.1f}×"
+            f"{sensor.height_mm:.1f} mm of {sensor.name}; is it in centimetres? Multiply by 10"
+        )
     if (np.abs(points[:, :2]) > half + 0.05 * half).any():
         x, y = np.abs(points[:, :2]).max(axis=0)
         is_finer = extent > _FINER * max(sensor.width_mm, sensor.height_mm)

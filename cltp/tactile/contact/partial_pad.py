@@ -1,4 +1,4 @@
-"""Whether part of the pad is not measured: without points, with dead ones, or with many bad ones.
+"""Whether part of the pad is not measured: no points, dead or many bad ones, or cut off heights.
 
 What touches there is not seen, and what touches beside it is measured wrong: half of a contact has
 half of the force, and a hole over it leaves nothing. Every sensor here measures all of its pad, so
@@ -24,6 +24,11 @@ LEAST_DEAD = 0.03
 """Part of the points that are exactly alike from which they are dead. Our choice: the corners
 between the dead borders of a DIGIT come to 3 % at most."""
 
+LEAST_CUT_OFF = 0.003
+"""Part of the points at the largest height from which it is cut off. Our choice: 23 of 7,500."""
+
+_LEAST_UNLIKE = 0.5  # of the other points, of which no two are alike unless they are counted
+_LEAST_NOISE_MM = 5e-4  # median; what bends without noise has less between three points
 _POINTS_PER_CELL = 10  # with so many on average, even random points leave one of 20,000 cells empty
 _MOST_CELLS = 32  # along either side
 _LEAST_GAP = 0.1  # of a side, between its end and the first point
@@ -50,8 +55,11 @@ def _reason(cloud: TactileCloud) -> str:
         return f"points cover {covered:.0%} of the pad"
     if cloud.num_isolated:
         return f"{cloud.num_isolated} of {len(cloud.points_mm)} points stand far from all others"
-    dead = dead_part(cloud)
-    return f"{dead:.0%} of the points are exactly alike, as dead ones are" if dead else ""
+    if dead := dead_part(cloud):
+        return f"{dead:.0%} of the points are exactly alike, as dead ones are"
+    if cut_off := cut_off_part(cloud):
+        return f"the highest {cut_off:.0%} of the points are exactly alike, as if cut off there"
+    return ""
 
 
 def covered_part(cloud: TactileCloud) -> float:
@@ -70,10 +78,32 @@ def covered_part(cloud: TactileCloud) -> float:
     return covered
 
 
+def cut_off_part(cloud: TactileCloud) -> float:
+    """Part of the points of a noisy grid at its very largest height: where it is cut off; else 0.
+
+    A flat body is as flat, but for the noise that all other points have. Of heights that are
+    counted in steps, and of clouds without noise, nothing is said.
+    """
+    if cloud.grid is None:
+        return 0.0
+    heights = cloud.points_mm[:, 2].reshape(cloud.grid).astype(np.float64)
+    is_highest = heights == heights.max()
+    part = np.count_nonzero(is_highest) / heights.size
+    others = heights[~is_highest]
+    if part < LEAST_CUT_OFF or not others.size:
+        return 0.0
+    if len(np.unique(others)) < _LEAST_UNLIKE * len(others):
+        return 0.0
+    relief = np.abs(heights - ndimage.uniform_filter(heights, 3, mode="nearest"))
+    noise_mm = float(np.median(relief[~ndimage.binary_dilation(is_highest, iterations=2)]))
+    return float(part) if noise_mm > _LEAST_NOISE_MM else 0.0
+
+
 def dead_part(cloud: TactileCloud) -> float:
     """Part of the points that are dead: alike to the last bit, and unlike all around; 0 for few.
 
-    The lowest and the highest value are none: a sensor may cut off there, and a flat body is flat.
+    The lowest and the highest value are none: a sensor may cut off there, and a flat body is flat
+    (``cut_off_part``).
     """
     z = cloud.points_mm[:, 2]
     if cloud.grid is not None:  # a look that is quicker than sorting

@@ -20,6 +20,7 @@ BALL = cloud_from_heights(np.clip(0.45 - (X**2 + Y**2) / 30, 0, None), SENSOR).p
         (BALL * np.float32([2, 2, 1]), "wrong sensor or frame"),
         (BALL + np.float32([0, 0, 5]), "gel of gelsight_mini$"),
         (BALL / 1000, "is it in metres"),
+        (BALL / 10, "is it in centimetres"),
         (BALL * np.float32([1, 0, 1]), "on a line: the cloud spans 19.* mm in x and 0 mm in y"),
         (np.repeat(BALL[:1], 100, axis=0), "all 100 points of the cloud lie at one place"),
         (BALL[:1], "has 1 point; at least 64"),

@@ -6,7 +6,13 @@ import numpy as np
 import pytest
 
 from cltp.tactile.cloud import TactileCloud, cloud_from_heights, cloud_of_pixels, grid_axes_mm
-from cltp.tactile.contact.partial_pad import covered_part, dead_part, is_partial, partial_text
+from cltp.tactile.contact.partial_pad import (
+    covered_part,
+    cut_off_part,
+    dead_part,
+    is_partial,
+    partial_text,
+)
 from cltp.tactile.markers import marker_cloud
 from cltp.tactile.noise_levels import WIDE
 from cltp.tactile.sensor_noise import NoiseUnit, spread_of
@@ -88,3 +94,18 @@ def test_many_isolated_points_make_a_pad_partial() -> None:
     points[::50, 2] = 1.0
     cloud = TactileCloud(points_mm=points, sensor=MINI)
     assert partial_text(cloud).startswith("384 of 19200 points stand far from all others")
+
+
+def test_heights_that_are_cut_off_above_are_told() -> None:
+    cloud = cloud_of_pixels(np.minimum(HEIGHTS, 0.25), MINI)
+    part = cut_off_part(cloud)
+    assert 0.02 < part < 0.1
+    assert partial_text(cloud).startswith(f"the highest {part:.0%} of the points are exactly alike")
+
+
+def test_a_flat_body_is_not_cut_off_and_neither_are_heights_counted_in_steps() -> None:
+    rng = np.random.default_rng(0)
+    flat = np.minimum(SMOOTH, 0.25)
+    noisy = flat + rng.normal(0, 0.004, flat.shape)
+    for heights in (flat, noisy, np.round(noisy, 3), np.round(noisy, 2)):
+        assert cut_off_part(cloud_of_pixels(heights, MINI)) == 0.0
