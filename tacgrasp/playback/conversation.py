@@ -25,7 +25,7 @@ from tacgrasp.lessons.dialogue.meaning import AnswerKind
 from tacgrasp.lessons.dialogue.scene import AskedScene
 from tacgrasp.lessons.turns.dialogue import Dialogue, Said
 from tacgrasp.lessons.turns.turn import next_turn
-from tacgrasp.playback.describe import RAISED, cloud_flags, zero_flags
+from tacgrasp.playback.describe import RAISED, cloud_flags, contact_flags, zero_flags
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -98,7 +98,8 @@ class Conversation:
             felt = talker.feel(encoder_input(cloud, talker.layout), cloud.force_scale)
             spoken = spoken_contact(talker, felt, cloud.sensor)
             reading = reading_of(felt.readings, cloud, talker.model.heads.contradiction)
-            flags = [*(flag.value for flag in reading.flags), *cloud_flags(cloud)]
+            flags = [flag.value for flag in reading.flags]
+            flags += contact_flags(cloud, reading.state) + cloud_flags(cloud)
             self._flags = tuple(dict.fromkeys(flags))
         else:
             self._flags = tuple(zero_flags(cloud))

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from cltp.tactile.cloud import TactileCloud
 from cltp.tactile.contact.partial_pad import is_partial, partial_text
+from cltp.tactile.contact.places_apart import apart_text
 from cltp.tactile.contact.raised_pad import is_raised, raised_text
 from cltp.tactile.contact.single_cloud import (
     is_lowered,
@@ -44,6 +45,9 @@ RAISED = "raised"
 FORCES_DIFFER = "forces_differ"
 """Flag of a contact whose force is another one by the gel's shape than by the model."""
 
+APART = "apart"
+"""Flag of a contact that stands out in places that lie apart, and may be two."""
+
 DIFFERS, DIFFERS_N = 1.5, 0.5
 """Factor, and force besides [N], by which a directly measured force lies outside of the model's
 interval where the two exclude each other. Our choice: its own error of a single contact is -26 to
@@ -72,6 +76,11 @@ def make_reader(weights: Path) -> TouchReader | None:
 def cloud_flags(cloud: TactileCloud) -> list[str]:
     """Flags of a contact that its cloud gives without a reader."""
     return zero_flags(cloud) + ([] if cloud.force_scale.is_calibrated else [UNCALIBRATED_FORCE])
+
+
+def contact_flags(cloud: TactileCloud, read: ContactState) -> list[str]:
+    """Flags of a contact beside what is read of it."""
+    return [APART] if apart_text(cloud, read.shape) else []
 
 
 def zero_flags(cloud: TactileCloud) -> list[str]:
@@ -159,6 +168,7 @@ def describe_in_numbers(cloud: TactileCloud, reader: TouchReader | None) -> dict
             contact_state(cloud, in_contact=True), reading.numbers
         ):
             flags.append(FORCES_DIFFER)
+        flags += contact_flags(cloud, reading.state)
     elif is_in_contact:
         flags = [NO_INTERVALS]
         numbers = {
@@ -230,10 +240,15 @@ def describe_by_model(cloud: TactileCloud, model: LlmPolicy, contract: Contract)
     """
     description = model.describe(cloud)
     decision = model.decide(Observation(cloud=cloud), contract)
+    read = model.read(cloud)
+    doubt = differing(contact_state(cloud, in_contact=True), read.numbers)
+    apart = apart_text(cloud, read.state.shape)
     if is_partial(cloud):
         advice = f"no action: {partial_text(cloud)}"
     elif is_lowered(cloud):
         advice = f"no action: {lowered_text(cloud)}"
+    elif apart:
+        advice = f"no action: {apart}"
     elif decision.action is not None:
         advice = f"{decision.action} (confidence {decision.confidence:.2f})"
     elif decision.success:
@@ -241,7 +256,6 @@ def describe_by_model(cloud: TactileCloud, model: LlmPolicy, contract: Contract)
     else:
         advice = f"no action: {decision.reason}"
     mark = cloud.force_scale.mark
-    doubt = differing(contact_state(cloud, in_contact=True), model.read(cloud).numbers)
     return [
         f"model     {description}",
         *([f"differs   {doubt}: don't act on either force"] if doubt else []),

@@ -116,11 +116,11 @@ def question_row(row: Mapping[str, str]) -> QuestionRow:
         raise ValueError(f"a question of kind {kind} needs {wanted}")
     if len(truths) > 1 and kind is not AnswerKind.TEXT:
         raise ValueError(f"a question of kind {kind} needs one truth, got {len(truths)}")
-    wanted = _RESULTS.get(kind)
+    result = _RESULTS.get(kind)
     for truth in truths:
-        if wanted and truth.result and truth.result != wanted:
+        if result and truth.result and truth.result != result:
             raise ValueError(
-                f"a question of kind {kind} needs a {wanted} as its truth, and {truth.text!r} is a "
+                f"a question of kind {kind} needs a {result} as its truth, and {truth.text!r} is a "
                 f"{truth.result}"
             )
     return QuestionRow(
