@@ -27,6 +27,7 @@ between the dead borders of a DIGIT come to 3 % at most."""
 LEAST_CUT_OFF = 0.003
 """Part of the points at the largest height from which it is cut off. Our choice: 23 of 7,500."""
 
+_LEAST_CUT_OFF = 20  # points: of a few, one is always the highest
 _LEAST_UNLIKE = 0.5  # of the other points, of which no two are alike unless they are counted
 _LEAST_NOISE_MM = 5e-4  # median; what bends without noise has less between three points
 _POINTS_PER_CELL = 10  # with so many on average, even random points leave one of 20,000 cells empty
@@ -88,9 +89,10 @@ def cut_off_part(cloud: TactileCloud) -> float:
         return 0.0
     heights = cloud.points_mm[:, 2].reshape(cloud.grid).astype(np.float64)
     is_highest = heights == heights.max()
-    part = np.count_nonzero(is_highest) / heights.size
+    count = np.count_nonzero(is_highest)
+    part = count / heights.size
     others = heights[~is_highest]
-    if part < LEAST_CUT_OFF or not others.size:
+    if count < _LEAST_CUT_OFF or part < LEAST_CUT_OFF or not others.size:
         return 0.0
     if len(np.unique(others)) < _LEAST_UNLIKE * len(others):
         return 0.0
