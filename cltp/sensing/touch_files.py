@@ -210,6 +210,6 @@ def _cloud_of(array: NDArray[np.float64], sensor: SensorSpec) -> TactileCloud:
         if highest > sensor.gel_mm:
             raise TouchError(
                 f"heights reach {highest:.3g} mm, more than the {sensor.gel_mm} mm gel of "
-                f"{sensor.name}; is it in mm (not in µm), with the untouched gel at 0?"
+                f"{sensor.name}; is it in mm, with the untouched gel at 0? Divide µm by 1000"
             )
     return cloud_from_heights(array, sensor)

@@ -98,7 +98,9 @@ def _problem(event: tyro_errors.ParseErrorEvent, flags: object) -> str:
                 if given := _NO_TYPE.match(reason):
                     given_text = " ".join(re.findall(r"'([^']*)'", given[1]))
                     wanted = metavar.removeprefix("{None}|").strip("{}")
-                    return f"{_name(argument)} needs {wanted}, got {given_text or 'nothing'}"
+                    is_more = len(given_text.split()) > len(wanted.split())
+                    hint = "; what stands without a flag goes before it" if is_more else ""
+                    return f"{_name(argument)} needs {wanted}, got {given_text or 'nothing'}{hint}"
                 return f"{_name(argument)} must be {metavar}: {reason}"
             error = sys.exception()
             while error is not None and not isinstance(error, ValidationError):

@@ -275,6 +275,7 @@ def test_a_line_that_cannot_be_answered_is_told_in_its_place(
         (["Hallo Welt"], "", "ask in plain English", 2),
         (["Deep?", "--limit", "1"], "", "--limit belongs to --goal", 2),
         (["Deep?", "--goal", "1", "2", "--task", "egg"], "", "both name a contract", 2),
+        (["--goal", "1", "2", "Deep?"], "", "what stands without a flag goes before it", 2),
         (["Deep?", "--goal", "2", "1"], "", "--goal, --limit: a band needs", 2),
         (["Deep?", "--goal", "0", "1"], "", "--goal, --limit: force terms need", 2),
         (["Deep?", "--goal", "1", "2", "--limit", "1.5"], "", "above its limit", 2),
