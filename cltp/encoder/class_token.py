@@ -13,6 +13,7 @@ import torch.nn.functional as F
 from torch import Tensor, nn
 
 from cltp.encoder.tokenizers import GridMaps, grid_maps, log_cell_edge
+from cltp.gel.pressure_maps import DAMPED, pressure_maps
 from cltp.tactile.encoder_input import OUTSIDE
 
 _LEAST_NOISE = 1e-3
@@ -112,6 +113,43 @@ def quantile_ranks(samples: int, count: Tensor) -> Tensor:
     first = torch.arange(deepest, device=count.device).expand(len(count), -1)
     return torch.minimum(torch.cat([first, spread], dim=1), count - 1)
 
+
+def curves_width(samples: int, grades: int, ranks: int) -> int:
+    """Width of ``ordered_curves``."""
+    return samples + grades + len(DAMPED) * ranks
+
+
+def ordered_curves(points: Tensor, samples: int, grades: int, ranks: int) -> Tensor:
+    """Heights and pressures of a grid in falling order, as they are: (B, ``curves_width``).
+
+    Where a cloud's depth and area are in one place, untouched by all that is learned. The deepest
+    height is encoded piecewise too.
+
+    Args:
+        points: Scaled points (B, N, 3) of a grid.
+        samples: Height quantiles.
+        grades: Bins of the deepest one's encoding.
+        ranks: Pressures of each map (``cltp.gel.pressure_maps``).
+    """
+    points = points.float()
+    heights = height_quantiles(points, samples)
+    maps = grid_maps(points)
+    pressures = maps.inside[:, None] * pressure_maps(maps.height)
+    ordered = pressures.flatten(2).sort(dim=2, descending=True).values
+    rest = torch.linspace(0, 1, ranks - LARGEST + 1, device=points.device)[1:].square()
+    spread = LARGEST + (rest * (ordered.shape[2] - 1 - LARGEST)).long()
+    chosen = torch.cat([torch.arange(LARGEST, device=points.device), spread])
+    logs = (_PRESSURE_GAIN * ordered[..., chosen].clamp(min=0)).log1p()
+    deepest = piecewise_linear(heights[:, :1], grades)
+    return torch.cat([5 * heights, deepest, logs.flatten(1)], dim=1)
+
+
+LARGEST = 16
+"""Largest pressures that are taken one by one."""
+
+_PRESSURE_GAIN = 8.0
+"""Pressures are told as logarithms of one and so many times them: the edge of a contact, where they
+are small, is what tells its area."""
 
 SUMMARY, _SMOOTH = 36, 32
 

@@ -17,7 +17,14 @@ import torch
 import torch.nn.functional as F
 from torch import Tensor, nn
 
-from cltp.encoder.class_token import ClassTokenFeatures, HeightQuantiles, HeightTerms
+from cltp.encoder.class_token import (
+    LARGEST,
+    ClassTokenFeatures,
+    HeightQuantiles,
+    HeightTerms,
+    curves_width,
+    ordered_curves,
+)
 from cltp.encoder.tokenizers import (
     FpsTokenizer,
     GridTokenizer,
@@ -68,6 +75,7 @@ VARIANTS: Mapping[str, EncoderVariant] = {
         presets={
             "grid": _GRID,
             "grid_pressure": {**_GRID, "pressure": 1},
+            "grid_curves": {**_GRID, "pressure": 1, "curves": 112},
             "tiny_grid": {
                 **{"num_groups": 63, "dim": 48, "depth": 1, "heads": 2, "stem_dim": 4},
                 **{"bearing": 16},
@@ -127,6 +135,7 @@ _SIZES = {
     "projection": (0, 4096),
     "grades": (0, 1024),
     "pressure": (0, 1),
+    "curves": (0, 1024),
 }
 """Smallest and largest size of any encoder; the largest published one is a third of it."""
 
@@ -150,6 +159,8 @@ class EncoderConfig:
             matrix, as in the paper.
         grades: Bins of the piecewise linear encoding of height quantiles; 0 for none.
         pressure: 1 for a grid that sees the pressure under its heights too, 0 for all others.
+        curves: Pressures of each map, in falling order, that stand beside the pooled tokens with
+            the height quantiles; 0 for none of both.
 
     Raises:
         TouchError: The sizes don't fit together.
@@ -168,6 +179,7 @@ class EncoderConfig:
     projection: int = 0
     grades: int = field(default=0, repr=False)  # see ``identity``
     pressure: int = field(default=0, repr=False)
+    curves: int = field(default=0, repr=False)
 
     def __post_init__(self) -> None:
         for name, (least, most) in _SIZES.items():
@@ -189,6 +201,11 @@ class EncoderConfig:
             raise TouchError(f"height quantiles are not for {self.tokenizer}")
         if self.pressure and not self.counts_cells:
             raise TouchError(f"{self.tokenizer} sees no pressure, only grids do")
+        if self.curves and not (self.pressure and self.bearing and self.curves > LARGEST):
+            raise TouchError(
+                f"curves need pressure, height quantiles and more than {LARGEST} ranks, got "
+                f"{self.curves}"
+            )
 
     @property
     def variant(self) -> EncoderVariant:
@@ -200,9 +217,15 @@ class EncoderConfig:
         return self.variant.layout.pitch_mm is not None
 
     @property
+    def pooled_dim(self) -> int:
+        """Width of ``Encoded.pooled``."""
+        beside = curves_width(self.bearing, self.grades, self.curves) if self.curves else 0
+        return beside + 2 * self.dim
+
+    @property
     def identity(self) -> str:
-        """All sizes in one line; unchanged for encoders that are older than the last two."""
-        last = {"grades": self.grades, "pressure": self.pressure}
+        """All sizes in one line; unchanged for encoders that are older than the last three."""
+        last = {"grades": self.grades, "pressure": self.pressure, "curves": self.curves}
         return str(self) + "".join(f" {name} {size}" for name, size in last.items() if size)
 
 
@@ -218,9 +241,10 @@ class Encoded(NamedTuple):
 
     Attributes:
         tokens: Shape (B, G + 1, C); the class token first.
-        pooled: Shape (B, 2 C): the class token and the maximum over the groups, plus the terms of
-            the height quantiles where there are any. Of a grid the last entry is the logarithm of a
-            cell's edge over ``UNIT_CELL_MM`` instead, by which heads turn cells into millimetres.
+        pooled: Shape (B, P): the class token and the maximum over the groups, plus the terms of
+            the height quantiles where there are any; before them ``ordered_curves``, where the
+            encoder has them. Of a grid the last entry is the logarithm of a cell's edge over
+            ``UNIT_CELL_MM`` instead, by which heads turn cells into millimetres.
         feature: Shape (B, F): aligned with CLIP, not yet normalised.
     """
 
@@ -256,12 +280,12 @@ class TactileEncoder(nn.Module):
         self.feature: nn.Module
         if config.projection:
             self.feature = nn.Sequential(
-                nn.Linear(2 * dim, config.projection),
+                nn.Linear(config.pooled_dim, config.projection),
                 nn.GELU(),
                 nn.Linear(config.projection, config.feature_dim, bias=False),
             )
         else:
-            self.feature = nn.Linear(2 * dim, config.feature_dim, bias=False)
+            self.feature = nn.Linear(config.pooled_dim, config.feature_dim, bias=False)
 
     def forward(self, points: Tensor) -> Encoded:
         """Encode scaled points, shape (B, N, 3), or pixels, where the variant takes images.
@@ -274,8 +298,12 @@ class TactileEncoder(nn.Module):
         pooled = torch.cat([x[:, 0], x[:, 1:].amax(dim=1)], dim=1)
         if terms is not None:
             pooled = pooled + terms.pooled
-        if self.config.counts_cells:
+        config = self.config
+        if config.counts_cells:
             pooled = torch.cat([pooled[:, :-1], log_cell_edge(points)], dim=1)
+        if config.curves:
+            curves = ordered_curves(points, config.bearing, config.grades, config.curves)
+            pooled = torch.cat([curves, pooled], dim=1)
         return Encoded(tokens=x, pooled=pooled, feature=self.feature(pooled))
 
     def class_token(self, tokens: Tensor, terms: HeightTerms | None) -> Tensor:

@@ -129,7 +129,7 @@ class StateHeads(nn.Module):
     @classmethod
     def of(cls, config: EncoderConfig, *, intervals: bool = True) -> StateHeads:
         """Heads for an encoder, with random weights."""
-        return cls(2 * config.dim, intervals=intervals, in_cells=config.counts_cells)
+        return cls(config.pooled_dim, intervals=intervals, in_cells=config.counts_cells)
 
     @property
     def has_intervals(self) -> bool:

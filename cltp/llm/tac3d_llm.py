@@ -61,7 +61,8 @@ class Projector(nn.Module):
         """
         projected = self.second(F.gelu(self.first(encoded.tokens)))
         read = self.readings(readings, given)
-        return torch.cat([projected, self.pooled(encoded.pooled), read], dim=1)
+        pooled = encoded.pooled[:, -2 * self.encoder_dim :]  # what is before them, the heads read
+        return torch.cat([projected, self.pooled(pooled), read], dim=1)
 
 
 class Tac3dLlm(nn.Module):

@@ -155,6 +155,13 @@ ROWS: Mapping[str, RowRecipe] = {
         learns_from="full",
         optimiser="muon",
     ),
+    "cltp_muon_curves": RowRecipe(
+        about="CLTP, all points and the pressure under them, with the ordered heights and "
+        "pressures beside what is learned, by Muon",
+        method="cltp",
+        preset="grid_curves",
+        optimiser="muon",
+    ),
     "cltp_quarter": _quarter("CLTP, all points, a quarter of the budget", _USUAL),
     "cltp_muon_quarter": replace(
         _quarter("CLTP, all points, by Muon, a quarter of the budget", _USUAL), optimiser="muon"

@@ -24,6 +24,8 @@ from cltp.data.sampler import CLEAN, NOISY, Augmentation, Sampler, mirrored
 from cltp.encoder.class_token import (
     HeightQuantiles,
     encoded_ranks,
+    height_quantiles,
+    ordered_curves,
     piecewise_linear,
     quantile_ranks,
 )
@@ -252,6 +254,34 @@ def test_grades_are_of_a_bearing_curve_and_tell_encoders_apart() -> None:
     plain, graded = EncoderConfig(bearing=64), EncoderConfig(bearing=64, grades=60)
     assert plain != graded
     assert plain.identity == str(plain) != graded.identity
+
+
+def test_ordered_curves_stand_beside_what_is_learned_whatever_that_is(tmp_path: Path) -> None:
+    config = PRESETS["grid_curves"]
+    heights = np.stack([fake_contact(number).height_mm for number in range(2)])
+    clouds = [cloud_from_heights(each, MINI) for each in heights]
+    layout = config.variant.layout
+    points = torch.from_numpy(np.stack([encoder_input(cloud, layout) for cloud in clouds]))
+    first, second = (TactileEncoder(config).eval() for _ in range(2))
+    with torch.no_grad():
+        pooled, other = first(points).pooled, second(points).pooled
+    curves = ordered_curves(points, config.bearing, config.grades, config.curves)
+    width = config.pooled_dim - 2 * config.dim
+    assert curves.shape == (2, width) == (2, 64 + 60 + 2 * 112)
+    assert torch.equal(pooled[:, :width], curves)
+    assert torch.equal(other[:, :width], curves)
+    assert not torch.equal(pooled[:, width:-1], other[:, width:-1])
+    torch.testing.assert_close(curves[:, :64], 5 * height_quantiles(points, 64))
+    pressures = curves[:, 124:].unflatten(1, (2, 112))
+    assert (pressures.diff(dim=2) <= 0).all()  # in falling order
+    save_encoder(tmp_path / "encoder", first, StateHeads.of(config))
+    assert load_encoder(tmp_path / "encoder")[0].config == config
+
+
+def test_ordered_curves_need_a_grid_with_pressure() -> None:
+    with pytest.raises(TouchError, match="curves need pressure, height quantiles and more than 16"):
+        EncoderConfig(bearing=64, curves=112)
+    assert PRESETS["grid_curves"].identity != PRESETS["grid_pressure"].identity
 
 
 def test_numbers_survive_their_transformation() -> None:
