@@ -28,6 +28,7 @@ LEAST_CUT_OFF = 0.003
 """Part of the points at the largest height from which it is cut off. Our choice: 23 of 7,500."""
 
 _LEAST_CUT_OFF = 20  # points: of a few, one is always the highest
+_LEAST_RISE_MM = 0.02
 _LEAST_UNLIKE = 0.5  # of the other points, of which no two are alike unless they are counted
 _LEAST_NOISE_MM = 5e-4  # median; what bends without noise has less between three points
 _POINTS_PER_CELL = 10  # with so many on average, even random points leave one of 20,000 cells empty
@@ -93,6 +94,8 @@ def cut_off_part(cloud: TactileCloud) -> float:
     part = count / heights.size
     others = heights[~is_highest]
     if count < _LEAST_CUT_OFF or part < LEAST_CUT_OFF or not others.size:
+        return 0.0
+    if heights.max() - np.median(heights) < _LEAST_RISE_MM:  # it is what nothing touches
         return 0.0
     if len(np.unique(others)) < _LEAST_UNLIKE * len(others):
         return 0.0

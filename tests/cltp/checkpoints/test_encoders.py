@@ -15,9 +15,9 @@ from tests.paths import ROOT
 
 KEYS = {
     "tokenizer", "dim", "depth", "heads", "num_groups", "group_size", "stem_dim", "stem_blocks",
-    "feature_dim", "bearing", "projection", "grades", "pressure",
+    "feature_dim", "bearing", "projection", "grades", "pressure", "curves",
 }  # fmt: skip
-"""Keys of a stored configuration; weights of earlier versions have all but the last."""
+"""Keys of a stored configuration; weights of earlier versions have all but the last two."""
 
 
 @pytest.mark.parametrize(

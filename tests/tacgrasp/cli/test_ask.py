@@ -72,7 +72,7 @@ def talker(monkeypatch: pytest.MonkeyPatch) -> Writer:
     monkeypatch.setattr(conversation, "spoken_contact", lambda *_: spoken)
     monkeypatch.setattr(understanding, "understand", lambda *_, **__: None)  # the writer decides
     monkeypatch.setattr(understanding, "QueryOdds", NoOdds)
-    flagged = SimpleNamespace(flags=(Flag.NOISE,))
+    flagged = SimpleNamespace(flags=(Flag.NOISE,), state=HELD.state)
     monkeypatch.setattr(conversation, "reading_of", lambda *_: flagged)
     return writer
 

@@ -108,5 +108,6 @@ def test_a_flat_body_is_not_cut_off_and_neither_are_heights_counted_in_steps() -
     flat = np.minimum(SMOOTH, 0.25)
     noisy = flat + rng.normal(0, 0.004, flat.shape)
     few = noisy[::10, ::14]
-    for heights in (flat, noisy, np.round(noisy, 3), np.round(noisy, 2), few):
+    upside_down = -np.clip(SMOOTH - 0.05, 0, None)
+    for heights in (flat, noisy, np.round(noisy, 3), np.round(noisy, 2), few, upside_down):
         assert cut_off_part(cloud_of_pixels(heights, MINI)) == 0.0

@@ -51,7 +51,7 @@ def test_a_late_answer_is_never_taken_for_the_next_one(bus, servos):
     servos.emulator.inject("late_reply", delay_ms=45)
     assert bus.read(1, reg.TORQUE, 83).data[0] == 0
     # on a busy computer it may still have been in time
-    assert (bus.counts.silent, bus.counts.late) in [(1, 1), (0, 0)]
+    assert (bus.counts.silent, bus.counts.late) in [(1, 1), (1, 2), (0, 0)]
     assert bus.read(1, reg.MODEL, 2).data == MODEL
 
 
