@@ -156,8 +156,7 @@ ROWS: Mapping[str, RowRecipe] = {
         optimiser="muon",
     ),
     "cltp_muon_curves": RowRecipe(
-        about="CLTP, all points and the pressure under them, with the ordered heights and "
-        "pressures beside what is learned, by Muon",
+        about="CLTP, all points, their heights and pressures in falling order beside, by Muon",
         method="cltp",
         preset="grid_curves",
         optimiser="muon",
