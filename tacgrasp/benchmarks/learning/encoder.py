@@ -61,7 +61,8 @@ def run(
     config = PRESETS[preset]
     if config.variant.takes_images:
         raise UsageError(f"preset {preset!r} takes images; the reference design takes points")
-    groups = dataclasses.replace(config, tokenizer="fps", num_groups=64, bearing=0, grades=0)
+    of_grids = {"bearing": 0, "grades": 0, "pressure": 0, "curves": 0}
+    groups = dataclasses.replace(config, tokenizer="fps", num_groups=64, **of_grids)
     models: dict[str, nn.Module] = {f"ours, {config.tokenizer}": TactileEncoder(config)}
     models["ours, fps"] = TactileEncoder(groups)
     models["plain PointBERT"] = PlainPointBert(groups)

@@ -86,6 +86,8 @@ def test_encoders_with_height_quantiles_are_timed(
         bearing=8,
         grades=4,
         num_groups=groups,
+        pressure=int(tokenizer == "grid"),
+        curves=20 * (tokenizer == "grid"),
         stem_dim=2,
         group_size=4,
         dim=8,
