@@ -12,7 +12,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial.transform import Rotation
 
 from primitives.devices import Pose
 from primitives.errors import LimitError
@@ -140,12 +139,6 @@ def check_travel(travelled_mm: float, step_mm: float, limits: Limits) -> None:
             f"{travelled_mm:.1f} mm travelled and {step_mm:.1f} mm to go exceed max_travel_mm "
             f"{limits.max_travel_mm:.1f}; nothing was sent. Start a new episode"
         )
-
-
-def turn_rad(a: Pose, b: Pose) -> float:
-    """Angle between the orientations of two poses [rad], 0 to pi."""
-    first, second = (Rotation.from_rotvec(np.array(pose.rotvec_rad)) for pose in (a, b))
-    return float((first.inv() * second).magnitude())
 
 
 def distance_mm(a: Pose, b: Pose) -> float:

@@ -21,7 +21,7 @@ from cltp.errors import TouchError
 from cltp.tactile.cloud import Stamp
 from primitives.devices import Arm, Gripper, Pose
 from primitives.errors import LimitError, RobotError
-from primitives.limits import check_workspace, distance_mm, turn_rad
+from primitives.limits import check_workspace, distance_mm
 from tacgrasp.config.hardware import HardwareConfig, SensorSettings, StartConfig
 from tacgrasp.config.schema import RunConfig
 from tacgrasp.drivers.check import Finding, finding, force_limit_problem
@@ -33,6 +33,7 @@ from tacgrasp.drivers.plugin import PluginSensorSettings
 from tacgrasp.drivers.recorded.settings import RecordedSettings
 from tacgrasp.drivers.scheduling import ADVICE, granted, lateness_s, request_nice
 from tacgrasp.drivers.stamps import real_stamp
+from tacgrasp.drivers.ur.motion_limits import turn_between_rad
 from tacgrasp.episodes.command_log import Command, CommandLog, LoggedArm, LoggedGripper
 from tacgrasp.rig.driver_choice import (
     arm_findings,
@@ -283,12 +284,16 @@ def start_pose(start: StartConfig) -> Pose | None:
     return Pose(position_m=np.array(start.position_m), rotvec_rad=np.array(start.rotvec_rad))
 
 
+def _turned_rad(a: Pose, b: Pose) -> float:
+    return turn_between_rad(a.rotvec_rad.tolist(), b.rotvec_rad.tolist())
+
+
 def _way_problem(start: StartConfig, current: Pose) -> str:
     """Why the arm may not go from a pose to its start by itself; empty where it may."""
     pose = start_pose(start)
     if pose is None:
         return ""
-    if (turned_rad := turn_rad(current, pose)) > start.max_turn_rad:
+    if (turned_rad := _turned_rad(current, pose)) > start.max_turn_rad:
         now = ", ".join(f"{value:.3f}" for value in current.rotvec_rad)
         return (
             f"the tool is turned by {turned_rad:.2f} rad ({math.degrees(turned_rad):.0f}°) from "
@@ -318,8 +323,8 @@ def _go_to_start(arm: Arm, start: StartConfig, config: RunConfig) -> Pose:
     check_workspace(pose, config.limits())
     if problem := _way_problem(start, current):
         raise RobotError(problem)
-    is_there = distance_mm(current, pose) <= AT_START_MM and turn_rad(current, pose) <= AT_START_RAD
-    if config.dry_run or is_there:
+    is_there = distance_mm(current, pose) <= AT_START_MM
+    if config.dry_run or (is_there and _turned_rad(current, pose) <= AT_START_RAD):
         return pose
     arm.move_to(pose, speed_m_s=start.speed_m_s)
     return pose

@@ -88,13 +88,14 @@ def cut_off_part(cloud: TactileCloud) -> float:
     """
     if cloud.grid is None:
         return 0.0
-    heights = cloud.points_mm[:, 2].reshape(cloud.grid).astype(np.float64)
-    is_highest = heights == heights.max()
+    z = cloud.points_mm[:, 2].reshape(cloud.grid)
+    is_highest = z == z.max()
     count = np.count_nonzero(is_highest)
-    part = count / heights.size
-    others = heights[~is_highest]
-    if count < _LEAST_CUT_OFF or part < LEAST_CUT_OFF or not others.size:
+    part = count / z.size
+    if count < _LEAST_CUT_OFF or part < LEAST_CUT_OFF or count == z.size:
         return 0.0
+    heights = z.astype(np.float64)
+    others = heights[~is_highest]
     if heights.max() - np.median(heights) < _LEAST_RISE_MM:  # it is what nothing touches
         return 0.0
     if len(np.unique(others)) < _LEAST_UNLIKE * len(others):
