@@ -8,12 +8,13 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+import numpy as np
 import torch
 import torch.nn.functional as F
 from torch import Tensor, nn
 
-from cltp.encoder.tokenizers import GridMaps, grid_maps, log_cell_edge
-from cltp.gel.pressure_maps import DAMPED, pressure_maps
+from cltp.encoder.tokenizers import GridMaps
+from cltp.gel.pressure_maps import DAMPED
 from cltp.tactile.encoder_input import OUTSIDE
 
 _LEAST_NOISE = 1e-3
@@ -65,7 +66,7 @@ class HeightQuantiles(nn.Module):
         samples: Number of quantiles; half of them are the deepest heights.
         hidden: Width of both layers.
         grades: Bins of the piecewise linear encoding of some of the quantiles; 0 for none.
-        is_grid: Whether points are a grid, of which ``grid_summary`` is read too.
+        is_grid: Whether points are a grid, of whose maps ``grid_summary`` is read too.
     """
 
     def __init__(
@@ -79,15 +80,16 @@ class HeightQuantiles(nn.Module):
         )
         self.token, self.pooled = nn.Linear(hidden, dim), nn.Linear(hidden, 2 * dim)
 
-    def forward(self, points: Tensor) -> HeightTerms:
-        """Terms of scaled points (B, N, 3)."""
+    def forward(self, points: Tensor, maps: GridMaps | None = None) -> HeightTerms:
+        """Terms of scaled points (B, N, 3), and of their maps where they are a grid."""
         quantiles = height_quantiles(points, self.samples)
         features = [5 * quantiles]
         if self.grades:
             encoded = quantiles[:, encoded_ranks(self.samples)]
             features.append(piecewise_linear(encoded, self.grades))
         if self.is_grid:
-            features.append(grid_summary(grid_maps(points), log_cell_edge(points)))
+            assert maps is not None, "expected the maps of a grid"
+            features.append(grid_summary(maps))
         hidden = self.trunk(torch.cat(features, dim=1))
         return HeightTerms(self.token(hidden)[:, None], self.pooled(hidden))
 
@@ -97,9 +99,20 @@ def height_quantiles(points: Tensor, samples: int) -> Tensor:
 
     Points outside the pad don't count.
     """
-    heights = points[..., 2].sort(dim=1, descending=True).values
+    heights = in_falling_order(points[..., 2])
     count = (heights > OUTSIDE / 2).sum(dim=1, keepdim=True)
     return heights.gather(1, quantile_ranks(samples, count))
+
+
+def in_falling_order(values: Tensor) -> Tensor:
+    """Values sorted along the last axis, the largest first; no gradient goes through.
+
+    On a CPU numpy sorts, which takes a twentieth of torch's time for as many as a grid has.
+    """
+    values = values.detach()
+    if values.device.type != "cpu":
+        return values.sort(dim=-1, descending=True).values
+    return torch.from_numpy(np.sort(values.numpy(), axis=-1)[..., ::-1].copy())
 
 
 def quantile_ranks(samples: int, count: Tensor) -> Tensor:
@@ -119,7 +132,7 @@ def curves_width(samples: int, grades: int, ranks: int) -> int:
     return samples + grades + len(DAMPED) * ranks
 
 
-def ordered_curves(points: Tensor, samples: int, grades: int, ranks: int) -> Tensor:
+def ordered_curves(points: Tensor, maps: GridMaps, samples: int, grades: int, ranks: int) -> Tensor:
     """Heights and pressures of a grid in falling order, as they are: (B, ``curves_width``).
 
     Where a cloud's depth and area are in one place, untouched by all that is learned. The deepest
@@ -127,15 +140,13 @@ def ordered_curves(points: Tensor, samples: int, grades: int, ranks: int) -> Ten
 
     Args:
         points: Scaled points (B, N, 3) of a grid.
+        maps: Their maps, with the pressures.
         samples: Height quantiles.
         grades: Bins of the deepest one's encoding.
         ranks: Pressures of each map (``cltp.gel.pressure_maps``).
     """
-    points = points.float()
     heights = height_quantiles(points, samples)
-    maps = grid_maps(points)
-    pressures = maps.inside[:, None] * pressure_maps(maps.height)
-    ordered = pressures.flatten(2).sort(dim=2, descending=True).values
+    ordered = in_falling_order(maps.pressures.flatten(2))
     rest = torch.linspace(0, 1, ranks - LARGEST + 1, device=points.device)[1:].square()
     spread = LARGEST + (rest * (ordered.shape[2] - 1 - LARGEST)).long()
     chosen = torch.cat([torch.arange(LARGEST, device=points.device), spread])
@@ -154,20 +165,20 @@ are small, is what tells its area."""
 SUMMARY, _SMOOTH = 36, 32
 
 
-def grid_summary(maps: GridMaps, log_edge: Tensor) -> Tensor:
+def grid_summary(maps: GridMaps) -> Tensor:
     """What tells true heights from noise, and the size of the pad: (B, ``SUMMARY``).
 
     The deepest means of 3 × 3 cells; the fine noise, by its median absolute value and the logarithm
     of that; the logarithms of the part that the pad takes of the grid and of a cell's edge.
     """
-    _, _, inside, height, mean = maps
+    inside, height, mean = maps.inside, maps.height, maps.mean
     smooth = mean.where(inside > 0, OUTSIDE).flatten(1).topk(_SMOOTH, dim=1).values
-    relief = (height - mean).abs().where(inside > 0, torch.inf)[:, ::2, ::2]  # a quarter will do
-    ordered = relief.flatten(1).sort(dim=1).values
-    count = ordered.isfinite().sum(dim=1, keepdim=True)
-    noise = ordered.gather(1, count // 2)
+    relief = (height - mean).abs().where(inside > 0, -1)[:, ::2, ::2]  # a quarter will do
+    ordered = in_falling_order(relief.flatten(1))
+    count = (ordered >= 0).sum(dim=1, keepdim=True)
+    noise = ordered.gather(1, (count.clamp(min=1) - 1) // 2)
     taken = inside.mean(dim=(1, 2))[:, None].log()
-    levels = [5 * smooth, 50 * noise, (1 + noise / _LEAST_NOISE).log(), taken, log_edge]
+    levels = [5 * smooth, 50 * noise, (1 + noise / _LEAST_NOISE).log(), taken, maps.log_edge]
     return torch.cat(levels, dim=1)
 
 

@@ -30,7 +30,7 @@ from cltp.encoder.tokenizers import (
     GridTokenizer,
     LatticeTokenizer,
     PatchTokenizer,
-    log_cell_edge,
+    grid_maps,
 )
 from cltp.errors import TouchError
 from cltp.tactile.point_layout import EVEN, GRID, PointLayout
@@ -292,18 +292,20 @@ class TactileEncoder(nn.Module):
 
         Points have the variant's layout and the order of ``cltp.tactile.encoder_input``.
         """
-        tokens = self.tokenizer(points)
-        terms = None if self.bearing is None else self.bearing(points)
+        config, maps = self.config, None
+        if config.counts_cells:
+            maps = grid_maps(points, has_pressure=bool(config.pressure))
+        tokens = self.tokenizer(points if maps is None else maps)
+        terms = None if self.bearing is None else self.bearing(points, maps)
         x = self.mixed(tokens, self.class_token(tokens, terms))
         pooled = torch.cat([x[:, 0], x[:, 1:].amax(dim=1)], dim=1)
         if terms is not None:
             pooled = pooled + terms.pooled
-        config = self.config
-        if config.counts_cells:
-            pooled = torch.cat([pooled[:, :-1], log_cell_edge(points)], dim=1)
-        if config.curves:
-            curves = ordered_curves(points, config.bearing, config.grades, config.curves)
-            pooled = torch.cat([curves, pooled], dim=1)
+        if maps is not None:
+            pooled = torch.cat([pooled[:, :-1], maps.log_edge], dim=1)
+            if config.curves:
+                curves = ordered_curves(points, maps, config.bearing, config.grades, config.curves)
+                pooled = torch.cat([curves, pooled], dim=1)
         return Encoded(tokens=x, pooled=pooled, feature=self.feature(pooled))
 
     def class_token(self, tokens: Tensor, terms: HeightTerms | None) -> Tensor:

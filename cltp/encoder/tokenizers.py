@@ -87,7 +87,6 @@ class GridTokenizer(nn.Module):
 
     def __init__(self, dim: int, stem_dim: int, blocks: int, *, has_pressure: bool = False) -> None:
         super().__init__()
-        self.has_pressure = has_pressure
         wide = 3 * stem_dim
         channels = 5 + len(DAMPED) * has_pressure
         self.stem = nn.Conv2d(channels, stem_dim, 3, stride=2, padding=1)
@@ -98,13 +97,9 @@ class GridTokenizer(nn.Module):
         self.position = nn.Parameter(torch.randn(1, self.GROUPS, dim) * 0.02)
         self.to(memory_format=torch.channels_last)  # type: ignore[call-overload]  # faster
 
-    def forward(self, points: Tensor) -> Tensor:
-        """Points (B, 7500, 3) to tokens (B, 63, C)."""
-        maps = grid_maps(points)
+    def forward(self, maps: GridMaps) -> Tensor:
+        """Maps of clouds to tokens (B, 63, C)."""
         seen = grid_channels(maps)
-        if self.has_pressure:
-            pressures = maps.inside[:, None] * pressure_maps(maps.height)
-            seen = torch.cat([seen, pressures], dim=1)
         x = self.mix(self.stem(seen.contiguous(memory_format=torch.channels_last)))
         x = self.mix_wide(self.widen(F.relu(x)))
         x = self.group(F.relu(x))
@@ -112,13 +107,16 @@ class GridTokenizer(nn.Module):
 
 
 class GridMaps(NamedTuple):
-    """A grid of points as maps, each (B, rows, columns).
+    """A grid of points as maps, (B, rows, columns) unless stated.
 
     Attributes:
         x, y: Positions, scaled.
         inside: 1 in the cells that the pad takes, 0 in the others.
         height: Scaled heights, 0 outside.
         mean: Their means over 3 × 3 cells, as far as these are inside; 0 outside.
+        pressures: Shape (B, maps, rows, columns), 0 outside (``cltp.gel.pressure_maps``); no maps
+            where none are asked for.
+        log_edge: Shape (B, 1): ``log_cell_edge``.
     """
 
     x: Tensor
@@ -126,15 +124,22 @@ class GridMaps(NamedTuple):
     inside: Tensor
     height: Tensor
     mean: Tensor
+    pressures: Tensor
+    log_edge: Tensor
 
 
-def grid_maps(points: Tensor) -> GridMaps:
-    """Maps of scaled points (B, 7500, 3)."""
+def grid_maps(points: Tensor, *, has_pressure: bool = False) -> GridMaps:
+    """Maps of scaled points (B, 7500, 3), of the pressure too if asked for."""
     x, y, z = points.view(-1, GRID.rows, GRID.columns, 3).unbind(dim=-1)
     inside = (z > OUTSIDE / 2).to(z.dtype)
     height = z * inside
     mean = inside * sums_of_nine(height) / sums_of_nine(inside).clamp(min=1)
-    return GridMaps(x, y, inside, height, mean)
+    pressures = (
+        inside[:, None] * pressure_maps(height)
+        if has_pressure
+        else inside.new_empty(len(inside), 0, *inside.shape[1:])
+    )
+    return GridMaps(x, y, inside, height, mean, pressures, log_cell_edge(points))
 
 
 def log_cell_edge(points: Tensor) -> Tensor:
@@ -151,13 +156,15 @@ def sums_of_nine(maps: Tensor) -> Tensor:
 
 
 def grid_channels(maps: GridMaps) -> Tensor:
-    """Indentation, its fine relief, positions, and where the pad is: (B, 5, rows, columns).
+    """Indentation, its fine relief, positions, where the pad is, and pressures if they are there.
+
+    Shape (B, 5 or more, rows, columns).
 
     Brought to a common size, since weights start out alike: 0.3 mm becomes 1, a relief of 0.03 mm
     becomes 1, 10 mm along the pad becomes 1.
     """
-    x, y, inside, height, mean = maps
-    channels = [5 * height, 50 * (height - mean), x, y, inside]
+    x, y, inside, height, mean, pressures, _ = maps
+    channels = [5 * height, 50 * (height - mean), x, y, inside, *pressures.unbind(dim=1)]
     return torch.stack(channels, dim=-1).permute(0, 3, 1, 2)
 
 

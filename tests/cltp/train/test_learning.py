@@ -32,7 +32,7 @@ from cltp.encoder.class_token import (
 from cltp.encoder.encoder import PRESETS, EncoderConfig, TactileEncoder
 from cltp.encoder.heads import StateHeads, restored, targets, transformed
 from cltp.encoder.losses import CltpLoss, ContrastiveLoss
-from cltp.encoder.tokenizers import even_channels, farthest_points
+from cltp.encoder.tokenizers import even_channels, farthest_points, grid_maps
 from cltp.errors import TouchError
 from cltp.evaluation.features import encode_batches, random_batches
 from cltp.evaluation.geometric_baseline import predict_geometrically
@@ -265,7 +265,8 @@ def test_ordered_curves_stand_beside_what_is_learned_whatever_that_is(tmp_path: 
     first, second = (TactileEncoder(config).eval() for _ in range(2))
     with torch.no_grad():
         pooled, other = first(points).pooled, second(points).pooled
-    curves = ordered_curves(points, config.bearing, config.grades, config.curves)
+    maps = grid_maps(points, has_pressure=True)
+    curves = ordered_curves(points, maps, config.bearing, config.grades, config.curves)
     width = config.pooled_dim - 2 * config.dim
     assert curves.shape == (2, width) == (2, 64 + 60 + 2 * 112)
     assert torch.equal(pooled[:, :width], curves)
