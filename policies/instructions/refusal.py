@@ -95,6 +95,7 @@ _ARM = re.compile(
     r"tool))?(?: (?:a (?:bit|little)|slightly|further))? (?:up|down|left|right|forwards?|backwards?|"
     r"back|home|away|sideways|in|out)(?:wards?)?(?: (?:a (?:bit|little)|again|more|slightly|(?:by )?"
     r"[\d.,]+ ?(?:mm|cm|m|millimet\w+|centimet\w+|degrees?|°)))?|"
+    r"(?:move|turn|rotate|drive|jog)(?: (?:the|your) (?:arm|gripper|robot|hand|fingers?|tool))?|"
     r"(?:close|shut) (?:the |your )?(?:gripper|fingers|hand|jaws))[.! ]*(?:please|now)?[.! ]*"
 )
 

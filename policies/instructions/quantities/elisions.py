@@ -109,6 +109,26 @@ _THAN_THAT = re.compile(
 )
 """'It was 1 N; use 0.2 less than that'."""
 
+_LEFT_OVER = (
+    re.compile(rf"(?<!\bnot ){ALONE}(?P<a>\d*\.\d+){_AFTER}"),
+    re.compile(
+        rf"[,;:] (?:(?:the|its|my|your|our) )?(?!{words.any_of('numbered')})\w+:? (?P<a>\d+)(?=\s*(?:$|[.,;:!?)](?![\d.])))"
+    ),
+)
+"""'Hold it at 1 N, redline 1.1': a fraction anywhere, a whole number after one unknown word."""
+_NO_FORCE = re.compile(
+    r"\b(?:(?:slip|slid)\w*[^,;.!?]*|(?:calibration|measuring|data) )\.?\d[\d.]*"
+)
+
+
+def left_over(text: str) -> str:
+    """A number that stays when all quantities of a text are read, as a force might; '' for none."""
+    text = _NO_FORCE.sub(" ", text)
+    for pattern in _LEFT_OVER:
+        if match := pattern.search(text):
+            return match["a"]
+    return ""
+
 
 def written_out(text: str) -> tuple[str, str]:
     """Give each number that names a force its unit.

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 
 from policies.instructions.quantities.bounds import with_plain_bounds
 from policies.instructions.quantities.calculations import unsure_change, with_shares, worked_out
-from policies.instructions.quantities.elisions import written_out
+from policies.instructions.quantities.elisions import left_over, written_out
 from policies.instructions.quantities.factors import denied_factor, read_delta, read_factor
 from policies.instructions.quantities.force import Force
 from policies.instructions.quantities.force_units import NUMBER, UNIT, number
@@ -117,6 +117,7 @@ def read_quantities(text: str) -> Quantities:
     unread = left_open or unread or undecided_force(plainly, is_bounded=bool(forces))
     before_factor = text
     factor, factor_words, text = read_factor(text)
+    unitless = unitless or (left_over(text) if forces else "")
     if factor is not None and not forces:
         denied = denied or denied_factor(before_factor, factor, factor_words)
     if unsure and any(force.kind == "value" for force in forces):

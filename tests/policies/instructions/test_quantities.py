@@ -318,6 +318,12 @@ def test_a_number_of_an_unknown_unit_or_a_malformed_one_is_reported(text, named)
         ("Hold it with 3/10.", "3"),
         ("Hold it at 5.", "5"),
         ("Pick berry 3.", ""),
+        ("Use 1 N, berry 2.", ""),
+        ("Hold it with 1 N, 3 times.", ""),
+        ("Hold it with 1 N for 2.5 s.", ""),
+        ("Hold it with 1 N, 0.3 mm of slip at most.", ""),
+        ("The last one slid at 0.4, so take 0.7 N.", ""),
+        ("Not 2.6, I said 1.6 N.", ""),
         ("Grip strength 1 N.", ""),
     ],
 )
