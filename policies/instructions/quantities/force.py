@@ -8,6 +8,9 @@ from typing import Literal
 MARK = "#"
 """Stands for a quantity in the rest of a text."""
 
+WORKED_OUT = "⇒"
+"""Before a force that stands in place of the values before it."""
+
 Kind = Literal["value", "most", "least"]
 
 

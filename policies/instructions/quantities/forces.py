@@ -7,8 +7,7 @@ from typing import Literal
 
 from policies.instructions.english import words as english
 from policies.instructions.english.denials import NO_CASE
-from policies.instructions.quantities.calculations import WORKED_OUT
-from policies.instructions.quantities.force import MARK, Force, Kind
+from policies.instructions.quantities.force import MARK, WORKED_OUT, Force, Kind
 from policies.instructions.quantities.outcomes import EarlierGrip, is_again, outcome
 from policies.instructions.quantities.relations import NOT, relation
 from policies.instructions.quantities.spans import force_spans

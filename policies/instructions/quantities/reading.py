@@ -10,10 +10,9 @@ import re
 from dataclasses import dataclass, field
 
 from policies.instructions.quantities.bounds import with_plain_bounds
-from policies.instructions.quantities.calculations import unsure_change, with_shares, worked_out
 from policies.instructions.quantities.elisions import left_over, written_out
 from policies.instructions.quantities.factors import denied_factor, read_delta, read_factor
-from policies.instructions.quantities.force import Force
+from policies.instructions.quantities.force import WORKED_OUT, Force
 from policies.instructions.quantities.force_units import NUMBER, UNIT, number
 from policies.instructions.quantities.forces import read_forces
 from policies.instructions.quantities.masses import Masses, without_masses
@@ -100,8 +99,12 @@ def read_quantities(text: str) -> Quantities:
     text = re.sub(rf"(\d)\.\s*(?=(?:{UNIT})\b)", r"\1 ", text)  # '5. N'
     text = re.sub(rf"(?<![\d.,])0 ?[.,] ?(?=\d{{1,3}}\s*-?\s*(?:{UNIT})\b)", "0.", text)  # '0. 8 N'
     left_open = open_force(text)
-    text = worked_out(with_shares(text))
-    unsure = unsure_change(text)
+    text, unsure = text.replace(WORKED_OUT, "→"), ""
+    if re.search(r"\d", text):
+        from policies.instructions.quantities import calculations
+
+        text = calculations.worked_out(calculations.with_shares(text))
+        unsure = calculations.unsure_change(text)
     text, lone = without_lone(with_plain_tolerances(text))
     text = with_plain_bounds(text)
     text = _CHAIN.sub(r"between \1 and \2 \3", text)
