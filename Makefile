@@ -65,7 +65,7 @@ weights: setup
 	$(BIN)/tacgrasp train clip --data runs/full --out runs/pretrained --steps 700 \
 	    --optimiser muon --precision $(PRECISION)
 	$(BIN)/tacgrasp train cltp --data runs/full --out runs/pretrained --steps 5000 \
-	    --preset grid_curves --optimiser muon --precision $(PRECISION)
+	    --preset grid_curves --optimiser muon --coarse 0.08 --precision $(PRECISION)
 	$(BIN)/tacgrasp train llm --data runs/full --methods runs/pretrained --out weights \
 	    --precision $(PRECISION)
 	$(BIN)/tacgrasp eval --data runs/full --weights weights --card

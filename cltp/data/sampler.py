@@ -29,6 +29,13 @@ from cltp.tactile.states import ContactState, Side, position_word
 MOST_COARSE = 1.7
 """Largest factor on the edge of a cell that windows are drawn with: that of a pad of 34 × 25 mm."""
 
+COARSE_PITCH_MM = (0.4, 2.2)
+"""Range of the edges of a coarse sensor's taxels [mm], log-uniform. Our choice: arrays of pressure
+sensors have 1 to 2 mm."""
+
+LEAST_COARSE = 6
+"""Fewest taxels along either side of a coarse sensor."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Batch:
@@ -73,6 +80,8 @@ class Augmentation:
             have them; an even layout always has so many.
         windows: Fraction of samples that a smaller pad sees (``cltp.data.windows``), half of
             these in larger cells.
+        coarse: Fraction of samples whose grid is felt by a few taxels, as wide as they are far
+            apart, instead of pixels (``COARSE_PITCH_MM``).
     """
 
     noise_level: float | NoiseLevels | NoiseRange = 1.0
@@ -81,11 +90,12 @@ class Augmentation:
     clean: float = 0.0
     loose: float = field(default=0.0, repr=False)  # see ``identity``
     windows: float = field(default=0.0, repr=False)
+    coarse: float = field(default=0.0, repr=False)
 
     @property
     def identity(self) -> str:
-        """All values in one line; unchanged for those that are older than the last two."""
-        last = {"loose": self.loose, "windows": self.windows}
+        """All values in one line; unchanged for those that are older than the last three."""
+        last = {"loose": self.loose, "windows": self.windows, "coarse": self.coarse}
         return str(self) + "".join(f" {name} {value}" for name, value in last.items() if value)
 
     @property
@@ -246,6 +256,8 @@ class Sampler:
         """Heights in the cells that the pad takes of the layout [mm], of all that it gives."""
         if sensor.markers is not None:
             return height_grid(marker_cloud(height_mm, sensor, unit=unit, rng=rng), layout)
+        if self.augmentation.coarse > 0 and rng.random() < self.augmentation.coarse:
+            height_mm = resampled(height_mm, *_taxels(sensor, rng))
         if unit is not None:
             height_mm = unit.apply(height_mm, sensor, rng)
         if self.augmentation.loose > 0 and rng.random() < self.augmentation.loose:
@@ -277,6 +289,13 @@ class Sampler:
         if unit is not None and (unit.point_loss > 0 or unit.shuffled):
             points = in_lattice(unit.received(points.astype(np.float32), rng), sensor)
         return scaled(points, sensor)
+
+
+def _taxels(sensor: SensorSpec, rng: np.random.Generator) -> tuple[int, int]:
+    """Rows and columns of a coarse sensor of the same pad."""
+    pitch_mm = math.exp(rng.uniform(*np.log(COARSE_PITCH_MM)))
+    rows, columns = sensor.height_mm / pitch_mm, sensor.width_mm / pitch_mm
+    return max(LEAST_COARSE, round(rows)), max(LEAST_COARSE, round(columns))
 
 
 def coarser(layout: PointLayout, rng: np.random.Generator) -> PointLayout:

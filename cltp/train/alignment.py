@@ -73,6 +73,8 @@ def train_cltp(
     torch.manual_seed(seed)
     learner = _Learner(config).to(workers.device)
     force = None if start is None else _take(start, learner)
+    if recipe.coarse:
+        augmentation = dataclasses.replace(augmentation or Augmentation(), coarse=recipe.coarse)
     noise = augmentation and augmentation.identity
     identity = {
         "data": data.checksum(),

@@ -79,8 +79,26 @@ def test_every_value_is_in_the_name_of_a_noise_and_the_default_is_named_as_it_al
     # stages compare this text with the one of an earlier checkpoint
     usual = "Augmentation(noise_level=1.0, uncalibrated=0.0, mirror=False, clean=0.0)"
     assert NOISY.identity == usual
-    others = [dataclasses.replace(NOISY, **{name: 0.125}) for name in ("loose", "windows", "clean")]
-    assert len({usual, *(each.identity for each in others)}) == 4
+    names = ("loose", "windows", "clean", "coarse")
+    others = [dataclasses.replace(NOISY, **{name: 0.125}) for name in names]
+    assert len({usual, *(each.identity for each in others)}) == 5
+
+
+def test_a_coarse_sensor_blurs_what_it_feels_where_it_is(data):
+    every = Augmentation(noise_level=0.0, mirror=False, coarse=1.0)
+    fine, coarse = (
+        Sampler(data, noise, layout=GRID).batch(np.arange(6), 0)
+        for noise in (dataclasses.replace(every, coarse=0.0), every)
+    )
+    assert fine.states == coarse.states
+    steps = [
+        np.abs(np.diff(each.points[..., 2].reshape(-1, GRID.rows, GRID.columns), 2)).max()
+        for each in (fine, coarse)
+    ]
+    assert steps[1] < 0.7 * steps[0]
+    for row in range(6):
+        means = [each.points[row, :, 2].mean() for each in (fine, coarse)]
+        assert means[1] == pytest.approx(means[0], abs=0.02)
 
 
 def test_some_samples_are_seen_by_smaller_pads_with_labels_to_fit(data):

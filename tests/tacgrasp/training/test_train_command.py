@@ -38,6 +38,7 @@ CLTP_FLAGS = [
     ["--preset", "small"],
     ["--head-weight", "0"],
     ["--moved", "0.3"],
+    ["--coarse", "0.08"],
     ["--also", "{data}"],
 ]
 
