@@ -33,8 +33,9 @@ COARSE_PITCH_MM = (0.4, 2.2)
 """Range of the edges of a coarse sensor's taxels [mm], log-uniform. Our choice: arrays of pressure
 sensors have 1 to 2 mm."""
 
-LEAST_COARSE = 6
-"""Fewest taxels along either side of a coarse sensor."""
+LEAST_COARSE = 10
+"""Fewest taxels along either side of a coarse sensor: a cloud has at least 64 points, and some are
+lost."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -80,8 +81,8 @@ class Augmentation:
             have them; an even layout always has so many.
         windows: Fraction of samples that a smaller pad sees (``cltp.data.windows``), half of
             these in larger cells.
-        coarse: Fraction of samples whose grid is felt by a few taxels, as wide as they are far
-            apart, instead of pixels (``COARSE_PITCH_MM``).
+        coarse: Fraction of samples whose grid is felt by a few taxels instead of pixels
+            (``COARSE_PITCH_MM``): half by means over areas, half in points alone.
     """
 
     noise_level: float | NoiseLevels | NoiseRange = 1.0
@@ -254,10 +255,14 @@ class Sampler:
         layout: PointLayout,
     ) -> NDArray[np.float32]:
         """Heights in the cells that the pad takes of the layout [mm], of all that it gives."""
+        if self.augmentation.coarse > 0 and rng.random() < self.augmentation.coarse:
+            taxels = _taxels(sensor, rng)
+            if rng.random() < 0.5:
+                sensor = dataclasses.replace(sensor, markers=taxels)
+            else:
+                height_mm = resampled(height_mm, *taxels)
         if sensor.markers is not None:
             return height_grid(marker_cloud(height_mm, sensor, unit=unit, rng=rng), layout)
-        if self.augmentation.coarse > 0 and rng.random() < self.augmentation.coarse:
-            height_mm = resampled(height_mm, *_taxels(sensor, rng))
         if unit is not None:
             height_mm = unit.apply(height_mm, sensor, rng)
         if self.augmentation.loose > 0 and rng.random() < self.augmentation.loose:

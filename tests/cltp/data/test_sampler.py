@@ -96,9 +96,8 @@ def test_a_coarse_sensor_blurs_what_it_feels_where_it_is(data):
         for each in (fine, coarse)
     ]
     assert steps[1] < 0.7 * steps[0]
-    for row in range(6):
-        means = [each.points[row, :, 2].mean() for each in (fine, coarse)]
-        assert means[1] == pytest.approx(means[0], abs=0.02)
+    for before, after in zip(fine.points[..., 2], coarse.points[..., 2], strict=True):
+        assert np.corrcoef(before, after)[0, 1] > 0.8
 
 
 def test_some_samples_are_seen_by_smaller_pads_with_labels_to_fit(data):
