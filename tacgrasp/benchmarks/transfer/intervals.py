@@ -1,9 +1,9 @@
 """``tacgrasp eval intervals``: errors of the heads' numbers, and how often their intervals hold.
 
 On contacts that nothing was learned from: of seen objects, of unseen objects and gels, of a second
-simulator, and on pads of other proportions. Every unit has a force calibration with a drawn
-residual. Depth and force have trivial rivals beside them: the median of all contacts for each, with
-the interval that holds nine tenths of them.
+simulator, on pads of other proportions, and felt by the 12 × 12 points of ``taxels``. Every unit
+has a force calibration with a drawn residual. Depth and force have trivial rivals beside them: the
+median of all contacts for each, with the interval that holds nine tenths of them.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ import torch
 from numpy.typing import NDArray
 
 from cltp.checkpoints.tac3d_llm import load_encoder
-from cltp.data.contact import Contact, Split
+from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset
 from cltp.data.sampler import CLEAN, NOISY, Augmentation, Sampler
 from cltp.encoder.encoder import TactileEncoder
@@ -28,7 +28,7 @@ from cltp.errors import TouchError
 from cltp.tactile.noise_levels import NoiseLevels
 from cltp.tactile.sensor_noise import CALIBRATED_PART
 from cltp.tactile.sensors import SensorSpec, sensor_named
-from cltp.tactile.states import NUMBERS
+from cltp.tactile.states import NUMBERS, ContactState
 from cltp.train.stage import ProgressReport, silent
 from sim.grasp.force_calibration import drawn_force_calibration
 from sim.independent.contacts import make_contact
@@ -55,6 +55,8 @@ CALIBRATED = Augmentation(
 """Noise of one unit that is read by its own calibration, where ``NOISY`` is that of units at large:
 drift and tilt as measured (``cltp.tactile.sensor_noise``), depth scale ±5 % (``tacgrasp bench
 balls`` finds 1.5 % on the unit that was measured)."""
+
+TAXELS = sensor_named("taxels")
 
 BATCH = 64
 
@@ -159,10 +161,25 @@ def _groups(reader: _Reader, folder: Path, num: int, seed: int) -> Iterator[Grou
             for mm in np.unique(thickness):
                 own = np.sort(chosen[thickness == mm])
                 yield _group(f"gel of {mm:.1f} mm", reader, data, own, noise)
-    seeds = range(FIRST_SEED, FIRST_SEED + num // 4)
     sampler = reader.sampler(ContactDataset(folder), NOISY)
+    minis = _of_minis(ContactDataset(folder, split=Split.TEST), num // 2, seed)
+    yield _felt("seen objects, 12 x 12 taxels", reader, sampler, minis, TAXELS)
+    seeds = range(FIRST_SEED, FIRST_SEED + num // 4)
     for name, sensor in {"second simulator": _MINI, **OTHER_PADS}.items():
-        yield _made(name, reader, sampler, [make_contact(s, sensor) for s in seeds], sensor)
+        contacts = [make_contact(s, sensor) for s in seeds]
+        made = [(each.height_mm, replace(each.state, force_n=np.nan)) for each in contacts]
+        yield _felt(name, reader, sampler, made, sensor)
+
+
+Felt = tuple[NDArray[np.float32], ContactState]
+"""Heights [mm] of a contact, and its state; a force of NaN where it is that of another gel."""
+
+
+def _of_minis(data: ContactDataset, num: int, seed: int) -> list[Felt]:
+    """Contacts of a data set on pads of a Mini."""
+    own = np.flatnonzero(data.column("sensor") == _MINI.name)
+    chosen = np.sort(np.random.default_rng([seed, 85]).permutation(own)[:num])
+    return [(data.height_mm(int(i)), data.nominal_state(int(i))) for i in chosen]
 
 
 def _group(
@@ -178,22 +195,17 @@ def _group(
     return Group(name=name, readings=_joined(parts), truth=np.array(truth))
 
 
-def _made(
-    name: str,
-    reader: _Reader,
-    sampler: Sampler,
-    contacts: Sequence[Contact],
-    sensor: SensorSpec,
+def _felt(
+    name: str, reader: _Reader, sampler: Sampler, contacts: Sequence[Felt], sensor: SensorSpec
 ) -> Group:
-    """Contacts that were made, with the noise of a Mini; their forces are another gel's."""
+    """Contacts as a sensor feels them, with its noise."""
     rng = np.random.default_rng([reader.seed, 84])
-    points = np.stack([sampler.cloud(each.height_mm, sensor, rng) for each in contacts])
+    points = np.stack([sampler.cloud(height_mm, sensor, rng) for height_mm, _ in contacts])
     parts = [
         reader.read(points[first : first + BATCH], "gelsight_mini")
         for first in range(0, len(points), BATCH)
     ]
-    truth = np.array([[getattr(each.state, n) for n in NUMBERS] for each in contacts])
-    truth[:, FORCE] = np.nan
+    truth = np.array([[getattr(state, n) for n in NUMBERS] for _, state in contacts])
     return Group(name=name, readings=_joined(parts), truth=truth)
 
 

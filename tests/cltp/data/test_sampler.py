@@ -97,7 +97,7 @@ def test_a_coarse_sensor_blurs_what_it_feels_where_it_is(data):
     ]
     assert steps[1] < 0.7 * steps[0]
     for before, after in zip(fine.points[..., 2], coarse.points[..., 2], strict=True):
-        assert np.corrcoef(before, after)[0, 1] > 0.8
+        assert np.corrcoef(before, after)[0, 1] > 0.5
 
 
 def test_some_samples_are_seen_by_smaller_pads_with_labels_to_fit(data):
