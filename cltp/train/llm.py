@@ -158,6 +158,7 @@ def train_llm(
     layers: int = 4,
     augmentation: Augmentation | None = None,
     start: Path | None = None,
+    language: Path | None = None,
     questions: Mapping[str, int] = QUESTIONS,
 ) -> Path:
     """Train, or continue training, and write ``projector`` and ``lm`` into ``run.out``.
@@ -167,27 +168,33 @@ def train_llm(
         words: The tokenizer.
         lessons: The exchanges about contacts.
         schedules: How long and how fast each stage learns; ``STAGES``, or ``FINE_TUNING`` with a
-            start, when not given.
+            start, when not given; without ``text`` where there is a ``language``.
         dim: Hidden width of the language model.
         layers: Number of its layers.
         augmentation: How contacts are varied.
         start: Folder of weights whose projector and language model are trained on; random ones
             when not given.
+        language: Folder of weights whose language model is trained on behind a random projector.
         questions: Questions in each step of a stage, besides its contacts.
 
     Raises:
-        TouchError: Data, encoder, start or a checkpoint can't be used.
+        TouchError: Data, encoder, start, language or a checkpoint can't be used.
     """
     data = run.dataset()
     encoder, heads = load_encoder(run.out / "encoder")
     torch.manual_seed(run.seed)
-    if start is None:
-        language = Language(small_lm(words, dim=dim, layers=layers), words=words)
-        projector = Projector(encoder.config.dim, language.dim)
-    else:
-        begun = load_tac3d_llm(start, lm_folder=start / "lm")
-        language, projector = begun.language, begun.projector
-    model = Tac3dLlm(encoder, heads, projector, language).to(run.workers.device)
+    begun = None
+    if (folder := start or language) is not None:
+        begun = load_tac3d_llm(folder, lm_folder=folder / "lm")
+    lm = (
+        Language(small_lm(words, dim=dim, layers=layers), words=words)
+        if begun is None
+        else begun.language
+    )
+    projector = Projector(encoder.config.dim, lm.dim)
+    if start is not None and begun is not None:
+        projector = begun.projector
+    model = Tac3dLlm(encoder, heads, projector, lm).to(run.workers.device)
     learner = ExchangeLearner(run, model, words, data, lessons, augmentation, questions)
     identity = {
         "data": data.checksum(),
@@ -198,10 +205,15 @@ def train_llm(
     }
     if start is not None:
         identity["start"] = manifest_digest(start / "projector")
+    if language is not None:
+        identity["language"] = manifest_digest(language / "lm")
     if questions != QUESTIONS:
         identity["questions"] = str(sorted(questions.items()))
     learned = nn.ModuleList([model.projector, model.lm])  # in every stage: checkpoints then chain
-    schedules = schedules or (STAGES if start is None else FINE_TUNING)
+    if schedules is None:
+        schedules = STAGES if start is None else FINE_TUNING
+        if language is not None:
+            schedules = {name: s for name, s in schedules.items() if name != "text"}
     for number, name in enumerate(STAGES, start=1):
         if name not in schedules:
             continue

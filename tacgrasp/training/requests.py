@@ -124,6 +124,8 @@ class TrainLlmRequest(TrainAllRequest):
             tacgrasp eval --blind.
         start: Folder of weights, or the word shipped, whose projector and language model are
             trained on, in fewer steps, instead of random ones.
+        language: Folder of weights, or the word shipped, whose language model stands behind a new
+            projector: it is trained on in all stages but the first, in which no encoder has a part.
         joint_steps: Optimiser steps with --start. Default: 1200; 300 with --also.
         also: Folder of a further data set to learn from, such as contacts of one's own.
         also_fraction: Fraction of it in each batch, between 0 and 1. Default: 0.5 with --start;
@@ -137,6 +139,7 @@ class TrainLlmRequest(TrainAllRequest):
     heads_steps: int = HEADS_SCHEDULE.steps
     blind_of: Path | None = None
     start: Path | None = None
+    language: Path | None = None
     joint_steps: int | None = None
     also: Path | None = None
     also_fraction: float | None = None
@@ -162,7 +165,8 @@ class TrainLlmRequest(TrainAllRequest):
                 f"--{changed.replace('_', '-')} is for a language model of others; name its "
                 "directory with --lm"
             )
-        if self.lm is not None and self.start is not None:
-            raise UsageError("--lm and --start both name a language model; give one")
+        models = {"--lm": self.lm, "--start": self.start, "--language": self.language}
+        if len(given := [flag for flag, folder in models.items() if folder is not None]) > 1:
+            raise UsageError(f"{' and '.join(given)} both name a language model; give one")
         if self.joint_steps is not None and (self.start is None or self.joint_steps < 1):
             raise UsageError("--joint-steps must be at least 1, and is for training on by --start")

@@ -104,6 +104,7 @@ def train_language_model(request: TrainLlmRequest, command: str) -> None:
     out, data, seed = request.out, request.data, request.seed
     methods, blind_of = request.methods, request.blind_of
     start, encoder = named_weights(request.start), named_weights(request.encoder)
+    language = named_weights(request.language)
     disable_progress_bar()  # of reading and writing weights, over in milliseconds
     began_s = time.monotonic()
     base = _base(request)
@@ -135,7 +136,7 @@ def train_language_model(request: TrainLlmRequest, command: str) -> None:
         if base is not None:
             train_stock_llm(run, *base, lessons, request.recipe, augmentation=WEIGHTS_NOISE)
         else:
-            words = _words(request, start)
+            words = _words(request, start or language)
             train_llm(
                 run,
                 words,
@@ -143,6 +144,7 @@ def train_language_model(request: TrainLlmRequest, command: str) -> None:
                 None if start is None else _tuning(request),
                 augmentation=WEIGHTS_NOISE,
                 start=start,
+                language=language,
                 questions=QUESTIONS if request.also is None else OWN_QUESTIONS,
             )
     if _digest(out) == before or not workers.is_first:
@@ -224,10 +226,10 @@ def _about_also(request: TrainLlmRequest) -> dict[str, str]:
     return {"also learned from": f"{len(data)} contacts, data checksum {data.checksum()}"}
 
 
-def _words(request: TrainLlmRequest, start: Path | None) -> Words:
-    """The tokenizer of our own model."""
-    if start is not None:
-        return Words.load(start / "lm")
+def _words(request: TrainLlmRequest, begun: Path | None) -> Words:
+    """The tokenizer of our own model, which may have begun elsewhere."""
+    if begun is not None:
+        return Words.load(begun / "lm")
     # the same data and seed give the same words
     return train_words(request.data, TouchLessons(), seed=request.seed, whole=known_words())
 

@@ -425,6 +425,18 @@ def test_training_that_starts_from_weights_begins_where_they_ended(
     assert all(torch.allclose(before[name], after[name], atol=1e-5) for name in before)
 
 
+def test_a_language_model_is_trained_on_behind_a_new_projector(
+    data_dir: Path, trained: Path, tmp_path: Path
+) -> None:
+    run = TrainingRun(data=data_dir, out=tmp_path)
+    shutil.copytree(trained / "encoder", tmp_path / "encoder")
+    words, slow = Words.load(trained / "lm"), schedule(1, CONTACTS, 1e-9)
+    train_llm(run, words, FakeLessons(), {"joint": slow}, augmentation=CLEAN, language=trained)
+    before, after = (load_tac3d_llm(folder).state_dict() for folder in (trained, tmp_path))
+    changed = [name for name in before if not torch.allclose(before[name], after[name], atol=1e-5)]
+    assert changed and all("projector" in name for name in changed)
+
+
 def test_an_encoder_of_other_sizes_can_not_be_trained_on(
     data_dir: Path, trained: Path, tmp_path: Path
 ) -> None:

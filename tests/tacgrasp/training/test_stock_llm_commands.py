@@ -106,6 +106,7 @@ def test_the_folder_of_the_language_model_is_named_once(
         ),
         (["--lm", "nowhere", "--encoder", "w"], "nowhere: it is not a directory"),
         (["--lm", "m", "--start", "w"], "--lm and --start both name a language model"),
+        (["--language", "v", "--start", "w"], "--start and --language both name a language model"),
         (["--tune", "all"], "--tune is for a language model of others; name its directory"),
         (["--lm", "m", "--lora-rank", "0"], "lora_rank must be above 0"),
         (["--encoder", "w", "--methods", "m"], "--methods and --encoder exclude each other"),
