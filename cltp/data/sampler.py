@@ -33,9 +33,9 @@ COARSE_PITCH_MM = (0.4, 2.2)
 """Range of the edges of a coarse sensor's taxels [mm], log-uniform. Our choice: arrays of pressure
 sensors have 1 to 2 mm."""
 
-LEAST_COARSE = 10
-"""Fewest taxels along either side of a coarse sensor: a cloud has at least 64 points, and some are
-lost."""
+LEAST_COARSE = 13
+"""Fewest taxels along either side of a coarse sensor: a cloud has at least 64 points, and up to
+three in ten are lost."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
