@@ -63,9 +63,9 @@ PRECISION ?= bf16
 weights: setup
 	$(BIN)/tacgrasp data generate --set full --out runs/full --seed 0
 	$(BIN)/tacgrasp train clip --data runs/full --out runs/pretrained --steps 700 \
-	    --optimiser muon --precision $(PRECISION)
-	$(BIN)/tacgrasp train cltp --data runs/full --out runs/pretrained --steps 5000 \
-	    --preset grid_curves --optimiser muon --coarse 0.08 --precision $(PRECISION)
+	    --precision $(PRECISION)
+	$(BIN)/tacgrasp train cltp --data runs/full --out runs/pretrained --steps 8000 \
+	    --precision $(PRECISION)
 	$(BIN)/tacgrasp train llm --data runs/full --methods runs/pretrained --out weights \
 	    --precision $(PRECISION)
 	$(BIN)/tacgrasp eval --data runs/full --weights weights --card

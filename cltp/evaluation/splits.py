@@ -57,10 +57,6 @@ LEARNING_NOISE = Augmentation(noise_level=WIDE, clean=0.2, loose=0.05, windows=0
 """Noise of the contacts that methods learn from: drawn from wide ranges, none in a fifth of them.
 Some come as 1024 loose points, as clouds in files do, some on smaller pads of other proportions."""
 
-WEIGHTS_NOISE = replace(LEARNING_NOISE, coarse=0.08)
-"""The same for weights that are used: some contacts are felt by a few taxels alone, so that what
-these can't tell is in doubt. The rows of tables learn without."""
-
 PROBE_NOISE = replace(LEARNING_NOISE, windows=0.0)
 PROBE_CLEAN = Augmentation(noise_level=0.0, uncalibrated=0.0)
 """Noise of the contacts that probes learn from, for splits with noise and for those without: a

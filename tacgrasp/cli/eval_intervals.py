@@ -1,4 +1,4 @@
-"""``tacgrasp eval intervals``: errors of the heads' numbers, and how often their intervals hold."""
+"""``tacgrasp eval intervals``: errors of the heads' numbers, how often they and words hold."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ INTERVALS = {"depth_mm": "depth", "x_mm": "x", "y_mm": "y", "area_fraction": "ar
 
 @dataclass(frozen=True)
 class IntervalFlags:
-    """Measure errors and intervals of the numbers that the heads read.
+    """Measure errors and intervals of the numbers that the heads read, and how sure words are.
 
     Attributes:
         weights: Folder of weights; by default TACGRASP_WEIGHTS, else the shipped weights.
@@ -87,6 +87,15 @@ def _show(groups: dict[str, Any]) -> None:
     table.add_row("one answer to all seen", *row, "")
     console = make_table_console()
     console.print(table)
+    first = next(iter(groups.values()))["words"]
+    words = Table("words right / how sure, %", *first, "n")
+    for name, one in groups.items():
+        said = [
+            f"{_shown(each['right'], 1)} / {_shown(each['confidence'], 0)}"
+            for each in one["words"].values()
+        ]
+        words.add_row(name, *said, str(one["n"]))
+    console.print(words)
     console.print("widths are medians over those of seen objects")
 
 

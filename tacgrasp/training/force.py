@@ -11,7 +11,7 @@ from pathlib import Path
 from cltp.checkpoints.card import CARD, renew_card
 from cltp.checkpoints.tac3d_llm import load_encoder, save_encoder
 from cltp.data.dataset import ContactDataset
-from cltp.evaluation.splits import WEIGHTS_NOISE
+from cltp.evaluation.splits import LEARNING_NOISE
 from cltp.train.calibration import LEAST_FORCE_CONTACTS, fit_force
 from cltp.train.stage import ProgressReport, TrainingRun, silent
 from tacgrasp.base.errors import UsageError
@@ -39,7 +39,7 @@ def train_force(
     heads.force = None
     contacts = ContactDataset(data)
     run = TrainingRun(data=data, out=weights, seed=seed, report=report)
-    fit_force(run, encoder.eval(), heads.eval(), WEIGHTS_NOISE)
+    fit_force(run, encoder.eval(), heads.eval(), LEARNING_NOISE)
     if heads.force is None:
         raise UsageError(
             f"a force head needs an encoder on the grid of all points, with intervals, and "

@@ -130,6 +130,7 @@ class TrainLlmRequest(TrainAllRequest):
         also: Folder of a further data set to learn from, such as contacts of one's own.
         also_fraction: Fraction of it in each batch, between 0 and 1. Default: 0.5 with --start;
             without, the contacts of both sets come equally often.
+        coarse: Fraction of the contacts, 0 to 1, that a few taxels feel instead of pixels.
     """
 
     lm: Path | None = None
@@ -143,8 +144,11 @@ class TrainLlmRequest(TrainAllRequest):
     joint_steps: int | None = None
     also: Path | None = None
     also_fraction: float | None = None
+    coarse: float = 0.0
 
     def __post_init__(self) -> None:
+        if not 0 <= self.coarse <= 1:
+            raise UsageError(f"--coarse must be a fraction from 0 to 1, got {self.coarse:g}")
         check_mixture(self.also, self.also_fraction)
         check_at_least_1("--heads-steps", self.heads_steps)
         sources = {

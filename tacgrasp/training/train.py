@@ -25,7 +25,7 @@ from cltp.checkpoints.card import PARTS, write_card
 from cltp.checkpoints.manifest import manifest_digest, write_manifest
 from cltp.checkpoints.tac3d_llm import load_clip, load_encoder, size_bytes
 from cltp.data.dataset import ContactDataset
-from cltp.evaluation.splits import WEIGHTS_NOISE
+from cltp.evaluation.splits import LEARNING_NOISE
 from cltp.llm.causal_lm import Language
 from cltp.texts.tokenizer import Words
 from cltp.train.distributed import joined_workers
@@ -120,6 +120,7 @@ def train_language_model(request: TrainLlmRequest, command: str) -> None:
         check_trainable(ContactDataset(learned))
     torch.set_num_threads(request.threads or os.cpu_count() or 1)
     lessons = TouchLessons(blind=blind_of is not None)
+    noise = replace(LEARNING_NOISE, coarse=request.coarse)
     with Bar() as report:
         workers = joined_workers(request.precision)
         run = TrainingRun(
@@ -134,7 +135,7 @@ def train_language_model(request: TrainLlmRequest, command: str) -> None:
         if encoder is not None:
             take_other_encoder(encoder, run, request.heads_steps)
         if base is not None:
-            train_stock_llm(run, *base, lessons, request.recipe, augmentation=WEIGHTS_NOISE)
+            train_stock_llm(run, *base, lessons, request.recipe, augmentation=noise)
         else:
             words = _words(request, start or language)
             train_llm(
@@ -142,7 +143,7 @@ def train_language_model(request: TrainLlmRequest, command: str) -> None:
                 words,
                 lessons,
                 None if start is None else _tuning(request),
-                augmentation=WEIGHTS_NOISE,
+                augmentation=noise,
                 start=start,
                 language=language,
                 questions=QUESTIONS if request.also is None else OWN_QUESTIONS,

@@ -1,4 +1,4 @@
-"""``tacgrasp eval intervals``: errors of the heads' numbers, and how often their intervals hold.
+"""``tacgrasp eval intervals``: errors of the heads' numbers, how often intervals and words hold.
 
 On contacts that nothing was learned from: of seen objects, of unseen objects and gels, of a second
 simulator, on pads of other proportions, and felt by the 12 × 12 points of ``taxels``. Every unit
@@ -22,13 +22,13 @@ from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset
 from cltp.data.sampler import CLEAN, NOISY, Augmentation, Sampler
 from cltp.encoder.encoder import TactileEncoder
-from cltp.encoder.heads import StateHeads
+from cltp.encoder.heads import IGNORED, StateHeads, targets
 from cltp.encoder.readings import HeadReadings, readings_of
 from cltp.errors import TouchError
 from cltp.tactile.noise_levels import NoiseLevels
 from cltp.tactile.sensor_noise import CALIBRATED_PART
 from cltp.tactile.sensors import SensorSpec, sensor_named
-from cltp.tactile.states import NUMBERS, ContactState
+from cltp.tactile.states import CLASSES, NUMBERS, ContactState
 from cltp.train.stage import ProgressReport, silent
 from sim.grasp.force_calibration import drawn_force_calibration
 from sim.independent.contacts import make_contact
@@ -73,11 +73,13 @@ class Group:
         name: Name in tables.
         readings: What the heads read, in newtons by each unit's calibration.
         truth: Shape (N, 5), ``NUMBERS``.
+        classes: Shape (N, 5), numbers of the true words; ``IGNORED`` where there is none.
     """
 
     name: str
     readings: HeadReadings
     truth: NDArray[np.float64]
+    classes: NDArray[np.int64]
 
 
 def evaluate_intervals(
@@ -96,7 +98,8 @@ def evaluate_intervals(
         ``groups.<name>``: ``n``, medians ``depth_mm, place_mm, area_percent, force_percent,
         light_force_n``, ``scale_x, scale_y, scale_area`` (what is read over what is true, by least
         squares), ``inside.<number>`` and ``width.<number>`` (median over that of the seen objects),
-        all of contacts that touch; ``trivial`` the same for the rival.
+        ``words.<dimension>.{right, confidence}`` (% right, and mean of the probability of the word
+        that is said), all of contacts that touch; ``trivial`` the numbers of the rival.
 
     Raises:
         TouchError: Weights or data can't be used.
@@ -187,12 +190,12 @@ def _group(
 ) -> Group:
     """The chosen contacts of a data set."""
     sampler = reader.sampler(data, noise)
-    parts, truth = [], []
+    parts, states = [], []
     for step, first in enumerate(range(0, len(chosen), BATCH)):
         batch = sampler.batch(chosen[first : first + BATCH], step)
         parts.append(reader.read(batch.points, "gelsight_mini"))
-        truth += [[getattr(state, name) for name in NUMBERS] for state in batch.states]
-    return Group(name=name, readings=_joined(parts), truth=np.array(truth))
+        states += batch.states
+    return _grouped(name, parts, states)
 
 
 def _felt(
@@ -205,8 +208,16 @@ def _felt(
         reader.read(points[first : first + BATCH], "gelsight_mini")
         for first in range(0, len(points), BATCH)
     ]
-    truth = np.array([[getattr(state, n) for n in NUMBERS] for _, state in contacts])
-    return Group(name=name, readings=_joined(parts), truth=truth)
+    return _grouped(name, parts, [state for _, state in contacts])
+
+
+def _grouped(name: str, parts: Sequence[HeadReadings], states: Sequence[ContactState]) -> Group:
+    return Group(
+        name=name,
+        readings=_joined(parts),
+        truth=np.array([[getattr(state, n) for n in NUMBERS] for state in states]),
+        classes=targets(states).classes.numpy(),
+    )
 
 
 def _joined(parts: Sequence[HeadReadings]) -> HeadReadings:
@@ -237,8 +248,23 @@ def _figures(group: Group, seen_widths: NDArray[np.float64]) -> dict[str, Any]:
         **{key: float(scales[NUMBERS.index(name)]) for key, name in SCALES.items()},
         "inside": _named(100 * inside.mean(axis=0)),
         "width": _named(_widths(group) / seen_widths),
+        "words": dict(zip(CLASSES, _words(group, touched), strict=True)),
         "trivial": {**_medians(rivals, truth), "width": _named((most - least) / seen_widths)},
     }
+
+
+def _words(group: Group, touched: NDArray[np.bool_]) -> Iterator[dict[str, float | None]]:
+    """How many words of each dimension are right, and how sure they are said [%]."""
+    for chances, true in zip(group.readings.words, group.classes.T, strict=True):
+        kept = touched & (true != IGNORED)
+        most, said = (each.numpy()[kept] for each in chances.max(dim=1))
+        right = np.mean(said == true[kept]) if kept.any() else np.nan
+        confidence = most.mean() if kept.any() else np.nan
+        yield {"right": _percent(right), "confidence": _percent(confidence)}
+
+
+def _percent(part: float) -> float | None:
+    return 100 * float(part) if np.isfinite(part) else None
 
 
 def _medians(errors: NDArray[np.float64], truth: NDArray[np.float64]) -> dict[str, float | None]:

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 import torch
 
+from cltp.encoder.heads import IGNORED
 from cltp.encoder.readings import HeadReadings
 from cltp.tactile.states import CLASSES
 from tacgrasp.benchmarks.transfer.intervals import Group, _figures, _widths
@@ -25,6 +26,7 @@ def group(shift: float, margin: float, count: int = 400) -> Group:
             high=values + margin * torch.tensor(truth),
         ),
         truth=truth,
+        classes=np.tile([0, 1, 2, IGNORED, 0], (count, 1)),
     )
 
 
@@ -42,6 +44,16 @@ def test_wider_intervals_hold_more_and_say_so() -> None:
     found = _figures(wide, _widths(narrow))
     assert found["inside"]["depth_mm"] > 90
     assert found["width"]["depth_mm"] == pytest.approx(1.9, rel=0.01)
+
+
+def test_words_are_scored_with_how_sure_they_are() -> None:
+    one = group(shift=0.2, margin=0.1)
+    shape = one.readings.words[0]
+    shape[:, 0], shape[::4, 0], shape[::4, 1] = 0.9, 0.2, 0.5
+    found = _figures(one, _widths(one))["words"]
+    assert found["shape"]["right"] == pytest.approx(75)
+    assert found["shape"]["confidence"] == pytest.approx(100 * (0.75 * 0.9 + 0.25 * 0.5))
+    assert found["position"] == {"right": None, "confidence": None}
 
 
 def test_forces_of_another_gel_are_no_figure() -> None:
