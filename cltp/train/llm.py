@@ -183,17 +183,12 @@ def train_llm(
     data = run.dataset()
     encoder, heads = load_encoder(run.out / "encoder")
     torch.manual_seed(run.seed)
-    begun = None
-    if (folder := start or language) is not None:
+    if (folder := start or language) is None:
+        lm = Language(small_lm(words, dim=dim, layers=layers), words=words)
+    else:
         begun = load_tac3d_llm(folder, lm_folder=folder / "lm")
-    lm = (
-        Language(small_lm(words, dim=dim, layers=layers), words=words)
-        if begun is None
-        else begun.language
-    )
-    projector = Projector(encoder.config.dim, lm.dim)
-    if start is not None and begun is not None:
-        projector = begun.projector
+        lm = begun.language
+    projector = Projector(encoder.config.dim, lm.dim) if start is None else begun.projector
     model = Tac3dLlm(encoder, heads, projector, lm).to(run.workers.device)
     learner = ExchangeLearner(run, model, words, data, lessons, augmentation, questions)
     identity = {

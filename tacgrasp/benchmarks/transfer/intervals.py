@@ -258,13 +258,10 @@ def _words(group: Group, touched: NDArray[np.bool_]) -> Iterator[dict[str, float
     for chances, true in zip(group.readings.words, group.classes.T, strict=True):
         kept = touched & (true != IGNORED)
         most, said = (each.numpy()[kept] for each in chances.max(dim=1))
-        right = np.mean(said == true[kept]) if kept.any() else np.nan
-        confidence = most.mean() if kept.any() else np.nan
-        yield {"right": _percent(right), "confidence": _percent(confidence)}
-
-
-def _percent(part: float) -> float | None:
-    return 100 * float(part) if np.isfinite(part) else None
+        parts = {"right": said == true[kept], "confidence": most}
+        yield {
+            name: 100 * float(part.mean()) if kept.any() else None for name, part in parts.items()
+        }
 
 
 def _medians(errors: NDArray[np.float64], truth: NDArray[np.float64]) -> dict[str, float | None]:
