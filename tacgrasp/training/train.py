@@ -20,13 +20,12 @@ from rich.console import Console
 from transformers.utils.logging import disable_progress_bar
 
 from cltp.atomic_write import copy_files, copy_folder, new_folder, write_atomically
-from cltp.checkpoints.base_lm import BaseLm, is_stock
+from cltp.checkpoints.base_lm import is_stock
 from cltp.checkpoints.card import PARTS, write_card
 from cltp.checkpoints.manifest import manifest_digest, write_manifest
-from cltp.checkpoints.tac3d_llm import load_clip, load_encoder, size_bytes
+from cltp.checkpoints.tac3d_llm import load_clip, load_encoder, load_tac3d_llm, size_bytes
 from cltp.data.dataset import ContactDataset
 from cltp.evaluation.splits import LEARNING_NOISE
-from cltp.llm.causal_lm import Language
 from cltp.texts.tokenizer import Words
 from cltp.train.distributed import joined_workers
 from cltp.train.llm import (
@@ -107,7 +106,8 @@ def train_language_model(request: TrainLlmRequest, command: str) -> None:
     language = named_weights(request.language)
     disable_progress_bar()  # of reading and writing weights, over in milliseconds
     began_s = time.monotonic()
-    base = _base(request)
+    _check_parts(request)
+    base = None if request.lm is None else load_base(request.lm, request.recipe, request.precision)
     before = _digest(out)
     if methods is not None:
         take_pretrained(methods, out)
@@ -171,12 +171,12 @@ def train_language_model(request: TrainLlmRequest, command: str) -> None:
     write_card(out, facts)
 
 
-def _base(request: TrainLlmRequest) -> tuple[BaseLm, Language] | None:
-    """The language model of others to train behind; None for our own.
+def _check_parts(request: TrainLlmRequest) -> None:
+    """Look at what the training begins with, before missing data are generated for it.
 
     Raises:
-        UsageError: It is named in the wrong way, or there is no encoder to stand before it.
-        TouchError: As ``cltp.train.stock.llm.load_base``.
+        UsageError: There is no encoder to train behind, or ``start`` is named in the wrong way.
+        TouchError: Weights to begin with are missing or damaged.
     """
     start = named_weights(request.start)
     if start is not None and is_stock(start / "lm"):
@@ -184,14 +184,13 @@ def _base(request: TrainLlmRequest) -> tuple[BaseLm, Language] | None:
             f"--start {start} was trained behind a language model of others; name that one "
             "with --lm instead"
         )
-    if request.lm is None:
-        return None
     sources = (request.methods, request.encoder, request.blind_of)
     if not any(sources) and not (request.out / "encoder").exists():
         raise UsageError(
             f"{request.out} has no encoder to train behind; take one by --encoder shipped"
         )
-    return load_base(request.lm, request.recipe, request.precision)
+    if (begun := start or named_weights(request.language)) is not None:
+        load_tac3d_llm(begun)
 
 
 def _tuning(request: TrainLlmRequest) -> dict[str, Schedule]:
