@@ -9,7 +9,8 @@ Not here: computing a state from a cloud (``cltp.tactile.measure``), wording it
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from typing import Any
@@ -142,6 +143,37 @@ def position_word(x_mm: float, y_mm: float, sensor: SensorSpec) -> Position:
     column = sum(x_mm >= limit for limit in (-sensor.width_mm / 6, sensor.width_mm / 6))
     row = sum(y_mm <= limit for limit in (sensor.height_mm / 6, -sensor.height_mm / 6))
     return list(Position)[3 * row + column]
+
+
+_CLOSE = 1e-6
+"""Distance from a limit at which a number is still of the class below it; less than is written."""
+
+
+def number_limits(
+    words: Mapping[str, str], sensor: SensorSpec | None
+) -> dict[str, tuple[float, float]]:
+    """Least and greatest of the numbers that words stand for, by their names in ``NUMBERS``.
+
+    Args:
+        words: Words of ``MEASURABLE`` dimensions, others among them.
+        sensor: The sensor; places have no limits where it is None.
+    """
+    limits = {
+        "depth_mm": _limits(DEPTH_LIMITS_MM, CLASSES["depth"].index(words["depth"])),
+        "area_fraction": _limits(AREA_LIMITS, CLASSES["area"].index(words["area"])),
+    }
+    if sensor is not None:
+        row, column = divmod(CLASSES["position"].index(words["position"]), 3)
+        x_mm, y_mm = sensor.width_mm / 6, sensor.height_mm / 6
+        limits["x_mm"] = _limits((-x_mm, x_mm), column)
+        limits["y_mm"] = _limits((-y_mm, y_mm), 2 - row)
+    return limits
+
+
+def _limits(limits: Sequence[float], number: int) -> tuple[float, float]:
+    """Ends of one of the classes that limits part, in ascending order."""
+    ends = (-math.inf, *limits, math.inf)
+    return ends[number] + _CLOSE, ends[number + 1] - _CLOSE
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

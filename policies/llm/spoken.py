@@ -7,17 +7,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
-from functools import partial
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from cltp.encoder.reader import most_probable_state, state_in_words
+from cltp.encoder.reader import most_probable_state, numbers_of, state_in_words
 from cltp.llm.constrained.decode import DOUBT_BELOW, SlotDecision
 from cltp.llm.generation import Felt, Reply, Talker
 from cltp.tactile.sensors import SensorSpec
-from cltp.tactile.states import CLASSES, NO_CONTACT_STATE, NUMBERS, ContactState
+from cltp.tactile.states import CLASSES, NO_CONTACT_STATE, ContactState
 from policies.llm.grammar import NOTHING_TOUCHES, SURE, caption_grammar
 from policies.llm.pooled_words import penalties, pooled
 from policies.llm.text import CAPTION_REQUEST, caption_numbers, caption_text
@@ -54,23 +53,32 @@ def caption_reply(
         doubt: Whether a word that is in doubt is said with its rival.
         ranges: Whether a number that is not well known is said as its interval.
     """
-    state = most_probable_state(felt.readings)
-    ends = _ends(felt) if ranges else {}
-    numbers = caption_numbers(state, ends) if state.in_contact else {}
-    say = partial(
-        talker.reply_to,
-        felt.touch,
-        CAPTION_REQUEST,
-        grammar=caption_grammar(
-            sensor, numbers=numbers, cut=state.cut if state.in_contact else None
-        ),
-        draft=caption_text(state, ends=ends),
-        doubt_below=None if doubt else SURE,
-    )
-    reply: Reply = say()
+
+    def say(state: ContactState, penalties: Mapping[str, float] | None = None) -> Reply:
+        ends = _ends(felt, state) if ranges else {}
+        numbers = caption_numbers(state, ends) if state.in_contact else {}
+        cut = state.cut if state.in_contact else None
+        return talker.reply_to(
+            felt.touch,
+            CAPTION_REQUEST,
+            grammar=caption_grammar(sensor, numbers=numbers, cut=cut),
+            draft=caption_text(state, ends=ends),
+            doubt_below=None if doubt else SURE,
+            penalties=penalties,
+        )
+
+    state = most_probable_state(felt.readings, sensor)
+    reply = say(state)
     agreed = pooled(reply.slots, felt.readings)
-    if any(_is_said_otherwise(reply.slots[name], one, doubt) for name, one in agreed.items()):
-        reply = say(penalties=penalties(reply.slots, agreed))
+    is_said = not any(
+        _is_said_otherwise(reply.slots[name], one, doubt) for name, one in agreed.items()
+    )
+    words = {name: one.chosen for name, one in agreed.items()}
+    if state.in_contact and words.keys() == CLASSES.keys():
+        in_words = state_in_words(felt.readings, words, sensor)
+        is_said, state = is_said and in_words == state, in_words
+    if not is_said:
+        reply = say(state, penalties(reply.slots, agreed))
     said = {
         name: replace(agreed[name], rival=own.rival)
         for name, own in reply.slots.items()
@@ -79,10 +87,9 @@ def caption_reply(
     return replace(reply, slots={**reply.slots, **said})
 
 
-def _ends(felt: Felt) -> dict[str, tuple[float, float]]:
-    """Ends of the interval of each number, by name."""
-    ends = zip(felt.readings.low[0].tolist(), felt.readings.high[0].tolist(), strict=True)
-    return dict(zip(NUMBERS, ends, strict=True))
+def _ends(felt: Felt, state: ContactState) -> dict[str, tuple[float, float]]:
+    """Ends of the interval of each number of a state, by name."""
+    return {name: (low, high) for name, (_, low, high) in numbers_of(felt.readings, state).items()}
 
 
 def _is_said_otherwise(own: SlotDecision, agreed: SlotDecision, doubt: bool) -> bool:
@@ -119,6 +126,6 @@ def spoken_contact(talker: Talker, felt: Felt, sensor: SensorSpec | None = None)
     if any(slot.chosen == NOTHING_TOUCHES for slot in said.values()):
         return SpokenContact(NO_CONTACT_STATE, {}, {})
     words = {name: slot.chosen for name, slot in said.items()}
-    state = state_in_words(felt.readings, words)
+    state = state_in_words(felt.readings, words, sensor)
     confidence = {name: slot.probability for name, slot in said.items()}
-    return SpokenContact(state, confidence, _ends(felt))
+    return SpokenContact(state, confidence, _ends(felt, state))

@@ -5,10 +5,13 @@ import torch
 
 from cltp.encoder.heads import transformed
 from cltp.encoder.heads_output import HeadsOutput
+from cltp.encoder.reader import most_probable_state, numbers_of, state_in_words
 from cltp.encoder.readings import TAILS, readings_of
 from cltp.errors import TouchError
-from cltp.tactile.states import CLASSES, NUMBERS
+from cltp.tactile.sensors import sensor_named
+from cltp.tactile.states import CLASSES, NUMBERS, area_word, depth_word, position_word
 
+MINI = sensor_named("gelsight_mini")
 FORCE = NUMBERS.index("force_n")
 READ = torch.tensor([[0.47, -3.2, 1.9, 0.123, 1.58], [0.2, 0.0, 0.0, 0.05, 0.01]])
 
@@ -61,3 +64,30 @@ def test_no_depth_is_negative_and_no_area_above_the_field() -> None:
 def test_heads_without_intervals_are_refused() -> None:
     with pytest.raises(TouchError, match="without intervals"):
         readings_of(output(transformed(READ), margin=None))
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_numbers_agree_with_the_words_that_are_said_beside_them(seed: int) -> None:
+    torch.manual_seed(seed)
+    numbers = torch.stack([READ[0] * torch.rand(5) * torch.tensor([2.5, 3.0, 4.0, 3.0, 1.0])])
+    read = readings_of(output(transformed(numbers)))
+    state = most_probable_state(read._replace(touching=torch.ones(1)), MINI)
+    assert depth_word(state.depth_mm) == state.depth
+    assert position_word(state.x_mm, state.y_mm, MINI) == state.position
+    assert area_word(state.area_fraction) == state.area
+    for name, number in numbers_of(read, state).items():
+        assert number.low <= number.value == getattr(state, name) <= number.high
+        if name == "force_n":  # no word says it
+            assert number.value == pytest.approx(float(read.values[0, FORCE]))
+
+
+def test_a_number_that_agrees_with_its_word_stays_as_it_is_read() -> None:
+    read = readings_of(output(transformed(READ[:1])))
+    words = {"depth": "moderate", "position": "middle-left", "area": "medium"}
+    words |= {"shape": "disc", "texture": "smooth"}
+    x_mm = float(read.values[0, 1])
+    state = state_in_words(read, words, MINI)
+    assert state.depth_mm == pytest.approx(0.47) and state.area_fraction == pytest.approx(0.123)
+    assert x_mm == pytest.approx(-3.2)
+    assert state.x_mm == pytest.approx(-MINI.width_mm / 6, abs=1e-5)
+    assert state_in_words(read, words, None).x_mm == x_mm
