@@ -29,6 +29,12 @@ _WEIGHT = re.compile(
     rf"|(?P<other>{_NEWTONS})['\"]? (?:(?:test|dead|brass|steel|calibration) )?(?:weights?|springs?|dumb-?bells?|magnets?|load cells?|sensors?|(?:force )?gauges?)\b"
 )
 """'The apple that weighs 1.5 N', 'beside the 2 N weight'."""
+_DEVICE = re.compile(
+    rf"\b(?:load ?cell|friction|lid|suction|vacuum|spring|magnet\w*|cable|belt|motor|payload|preload)(?: (?:range|force|capacity|rating|load|pull))+(?: (?:is|of|about))* ?:? ?(?P<force>{_NEWTONS})"
+    rf"|\b(?:while|when|as) (?:i|we|he|she|they|someone) (?:pull|push|tug|lift|press)\w*(?: (?:on )?(?:it|the \w+))? (?:with|at|by) (?P<mine>{_NEWTONS})"
+    rf"|(?P<other>{_NEWTONS}) of (?:suction|vacuum|pull|friction|thrust|drag)\b"
+)
+"""'Load cell range 5 N', 'while I pull with 3 N', '3 N of suction'."""
 _PART = re.compile(
     rf"\b(?:stem|stalk|lid|cap|cork|label|peel|leaf|leaves|calyx|sticker|button|key|switch|latch|zip)s? (?:\w+ )?(?:comes?|came|pulls?|pulled|peels?|breaks?|snaps?|pops?|detach\w*|separat\w*|opens?|clicks?|holds?|needs|takes|resists)\b[^.;,#]{{0,30}}?(?P<force>{ONE_FORCE})"
 )
@@ -58,9 +64,10 @@ def without_other_forces(text: str) -> str:
         text: Plain text, its numbers in digits.
     """
     text = _LIFTED.sub("the usual grip will do", _ALLOWED.sub("the usual grip will do", text))
-    for match in reversed(list(_WEIGHT.finditer(text))):
-        start, end = match.span("force" if match["force"] else "other")
-        text = f"{text[:start]}{MARK}{text[end:]}"
+    for pattern in (_WEIGHT, _DEVICE):
+        for match in reversed(list(pattern.finditer(text))):
+            start, end = match.span(match.lastgroup or "force")
+            text = f"{text[:start]}{MARK}{text[end:]}"
     if part := _PART.search(text):
         text = f"{text[: part.start('force')]}{MARK}{text[part.end('force') :]}"
     for match in reversed(list(_OF_OBJECT.finditer(text))):

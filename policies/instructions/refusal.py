@@ -108,7 +108,7 @@ def _commands_the_arm(text: str) -> str:
 
 def _contradicts(text: str) -> str:
     match = re.search(
-        r"\bwithout (?:applying |using |exerting |putting )?any (?:force|pressure|grip|squeeze)\b|\b(?:with|apply|use|exert|put) (?:no|zero|absolutely no) (?:force|pressure|grip|squeeze|contact)\b(?! (?:more|greater|above|over|beyond|than|higher))"
+        r"\bwithout (?:applying |using |exerting |putting )?any (?:force|pressure|grip|squeeze)\b|\b(?:with|apply|use|exert|put) (?:no|zero|0|absolutely no) (?:force|pressure|grip|squeeze|contact)\b(?! (?:more|greater|above|over|beyond|than|higher))"
         r"|\bwithout (?:force|pressure|closing|using your fingers|moving|gripping|holding|contact)\b",
         text,
     )
@@ -222,8 +222,10 @@ def _stops(text: str) -> str:
             for match in pattern.finditer(sentence):
                 before = re.split(r"[,;]", sentence[: match.start()])[-1]
                 earlier = text[: text.find(match.group())] + " " + before
-                is_after = _WEAK_STOP.search(match.group()) and (
-                    _HOLD.search(earlier) or MARK in earlier
+                is_after = (
+                    _WEAK_STOP.search(match.group())
+                    and not match.group().startswith("no")
+                    and (_HOLD.search(earlier) or MARK in earlier)
                 )
                 if is_after:
                     continue  # 'grip it and wait'

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import html
 import re
 import unicodedata
 
@@ -31,6 +32,7 @@ _CONTRACTIONS = (
     (r"\b(it|that|there|this|one|he|she|what|who|here)['’]s\b", r"\1 is"),
     (r"\bd['’]?y(?:ou|a)\b", "do you"),
     (r"\by['’](?=think|know|reckon)", "you "),
+    (r"\bupto\b", "up to"),
     (r"\bw/o\b", "without"),
     (r"\bw/", "with "),
     (r"\bgonna\b", "going to"),
@@ -50,6 +52,16 @@ _CONTRACTIONS = (
     (r"\b(?:dinnae|dinna)\b", "do not"),
     (r"\bmor\b", "more"),
 )  # fmt: skip
+
+_TYPED = (
+    (r"(?<=\d)[·٫](?=\d)", "."),  # decimal points of other keyboards
+    (r"(?<=[a-z]),(?=\.?\d)", ", "),
+    (r"\s*(?:!=|≠|<>)\s*", " not "),
+    (r"(?:^|(?<=\s))!\s*(?=\.?\d)", "not "),
+    (r"(?<=\d)\s*\[\s*([a-zµ]{1,12})\s*\]", r" \1"),
+    (r"(?<!\w)(['\"“”„«»*_]+)(\.?\d[^'\"“”„«»*]{0,20}?)['\"“”„«»*_]+(?!\w)", r"\2"),
+)
+"""How numbers are typed: in quotes, in bold, with their unit in brackets."""
 
 _FOREIGN_BOUNDS = (
     (r"\b(?:höchstens|hoechstens|maximal|maximaal|hoogstens|nicht mehr als|nicht über|niet meer dan|au plus|au maximum|pas plus (?:de|que)|como m[áa]ximo|a lo sumo|no m[áa]s de|al massimo|non più di|no máximo|högst|højst|enintään)(?= (?:(?:de|di|von) )?\d)", "at most"),
@@ -79,9 +91,10 @@ def plain(text: str) -> str:
     text = re.sub(f"[{_MARKS}]", "'", text)  # before compatible forms: '´' would become a space
     text = re.sub("(?:(\\d+) ?)?([½¼¾⅓⅔⅛])", _mixed, text)
     text = re.sub("(?<=[\\w)])([⁰¹²³⁴⁵⁶⁷⁸⁹])", r"^\1", text)  # '0.5²' is no 0.52
-    text = unicodedata.normalize("NFKC", text).lower()
+    text = unicodedata.normalize("NFKC", html.unescape(text)).lower()
+    text = "".join(c for c in text if unicodedata.category(c) != "Cf")  # what nobody sees
     text = text.replace("()", "").replace("−", "-").replace("⩽", "<=").replace("&lt;", "<")
-    for pattern, replacement in (*_CONTRACTIONS, *_FOREIGN_BOUNDS):
+    for pattern, replacement in (*_TYPED, *_CONTRACTIONS, *_FOREIGN_BOUNDS):
         text = re.sub(pattern, replacement, text)
     text = re.sub(r"\banything (?:but|other than|except)\b", "not", text)
     return _ASIDE.sub(r"\1", " ".join(text.split()))

@@ -6,7 +6,7 @@ import re
 from typing import Literal
 
 from policies.instructions.english import words as english
-from policies.instructions.english.denials import NO_CASE
+from policies.instructions.english.denials import FORBIDDEN_AFTER, NO_CASE
 from policies.instructions.quantities.force import MARK, WORKED_OUT, Force, Kind
 from policies.instructions.quantities.outcomes import EarlierGrip, is_again, outcome
 from policies.instructions.quantities.relations import NOT, relation
@@ -54,6 +54,25 @@ _CONDITION = re.compile(
     r"\bif\b.*?(?=\b(?:use|hold|grip|apply|take|go|try|squeeze|press|then)\b)|\bif not\b"
 )
 """'If it does not slip use 0.5 N': its denial is not that of the force."""
+_MAKE_SURE = re.compile(
+    r"\b(?:make (?:sure|certain)|ensure|see (?:to it )?that|take care|be sure)\b[^.;!?]*\b(?:not|never)\b[^.;!?]*$"
+)
+_AGAINST = re.compile(
+    r"\b(?:i doubt|doubtful|foolish|unwise|inadvisable|ill-advised|stupid|crazy|insane|madness|silly|reckless|careless|irresponsible|idiotic|folly|pointless|senseless|daft|nonsense) (?:\w+ ){0,6}$"
+)
+"""'It would be foolish to grip it with 2 N'."""
+_NO_DENIAL = re.compile(
+    r"\bwhy (?:not|do not)\b|\b(?:can|could|will|would|do|should) not (?:you|we)\b|\b(?:slip|slid|crush|bruis|squash)\w*|\bstop\w* (?:\w+ )?at\s*$|"
+    r"\b(?:harder|firmer|more|higher|tighter|above|over) (?:or|nor) (?:softer|gentler|less|lower|looser|below|under)\b|\b(?:will|would) not do\b|"
+    r"\bnot (?:too|go(?:ing)? wrong|mind|object|hesitate|forget|fail|be (?:shy|afraid|scared))\b|\b(?:nothing|no|never) (?:wrong|problem|objection|harm)\b"
+)
+"""'Why not use 2 N', 'it did not slip at 0.5 N': what is denied is not the force."""
+_REJECTED = re.compile(
+    rf"\s*[:,;.!–—-]*\s*(?:(?:no way|no thanks?|no chance|not a chance|absolutely not|certainly not|definitely not|not on your life|nope|never|forget it)[.!]*\s*$|"
+    rf"(?:\w+ ){{0,2}}?{FORBIDDEN_AFTER}|(?:is|would be|was|sounds|seems) (?:just |plain |simply |really |rather )?(?:an? )?(?:(?:really |very |terribl[ey] )?(?:bad|terrible|awful|poor|stupid|foolish|silly|crazy|dreadful) (?:idea|choice|plan)|foolish|unwise|inadvisable|stupid|crazy|insane|madness|reckless|irresponsible|nonsense|folly)\b|"
+    r",? ?like the (?:\w+ ){1,3}?(?:that|which|you) (?:(?:got|was|were|had|just) )*(?:crush|bruis|squash|burst|broke|ruin|split)\w*)"
+)
+"""'2 N: no way', 'holding it with 2 N is a bad idea'."""
 _PAST = re.compile(
     r"\b(?:last (?:time|one|run|trial|try|berry)|yesterday|previous(?:ly)?|before|earlier|used to|was|were|had|"
     r"slipped|slid|crushed|squashed|bruised|dropped|tried|went|did)\b"
@@ -64,6 +83,7 @@ def read_forces(text: str) -> tuple[list[Force], str, str]:
     """Forces of a text, words of the one that it only denies, the text with ``MARK`` for each."""
     denied = ""
     found: list[tuple[Force, bool]] = []  # a force, and whether it is of the past or denied
+    denials: set[str] = set()  # words of the forces whose clause denies them
     rest, end = "", 0
     became: Literal["least", "most"] | None = None  # what the force before is by its outcome
     for start, stop, ends, within_n in force_spans(text):
@@ -72,6 +92,8 @@ def read_forces(text: str) -> tuple[list[Force], str, str]:
         left = left.replace(WORKED_OUT, " ").rstrip() + " " if is_worked_out else left
         words = text[start:stop].strip()
         said = outcome(f"{left.rstrip()} at" if _WITHIN.match(words) else left, right)
+        if _MAKE_SURE.search(left):
+            said = None  # it is to come, and no outcome
         if said is None and became and is_again(left, right):
             said = EarlierGrip(kind=became, left_cut=len(left), right_cut=0)
         became = said.kind if said and said.kind != "failed" else None
@@ -120,11 +142,17 @@ def read_forces(text: str) -> tuple[list[Force], str, str]:
             )[0]
             clause = before + after
             is_denied = kind == "value" and bool(_DROPPED.search(left) or NOT.search(before))
+            if is_denied and len(NOT.findall(before)) % 2 and not _NO_DENIAL.search(before):
+                denials.add(words)
+            behind = text[stop:].lstrip(" .,;-–—")
+            corrected = _CORRECTION.match(behind)
+            if corrected and NOT.search(behind, corrected.end()) and not re.search(r"\d", behind):
+                denials.add(words)  # '1 N, or rather do not hold it'
             if _WAS_WRONG.search(left) and not (found and _DROPPED.search(left)):
                 if kind == "value":
                     kind = _kind_corrected([force for force, _ in found if not force.is_told])
                 found = [(force, kept and force.is_told) for force, kept in found]
-            if _CORRECTION.search(left) or _CORRECTION.match(text[stop:].lstrip(" .,;-–—")):
+            if _CORRECTION.search(left) or corrected:
                 is_denied = is_denied or not _CORRECTION.search(left)
                 if _CORRECTION.search(left):
                     if kind == "value":
@@ -135,6 +163,8 @@ def read_forces(text: str) -> tuple[list[Force], str, str]:
                 found = [(f, kept and (f.is_told or f.kind != "value")) for f, kept in found]
             kept = is_worked_out or not (_PAST.search(clause) or is_denied)
             is_taken_back = bool(_TAKEN_BACK.match(text[stop:]) or _IS_WRONG.match(text[stop:]))
+            if kind == "value" and not is_worked_out:
+                is_taken_back |= bool(_AGAINST.search(left) or _REJECTED.match(text[stop:]))
             if is_taken_back or (kind == "value" and _NOT_WITH.search(left)):
                 denied, kept = words, kept and not is_taken_back
             force = Force(kind=kind, value_n=ends[0], words=words, within_n=within_n)
@@ -145,6 +175,8 @@ def read_forces(text: str) -> tuple[list[Force], str, str]:
     denied_n = {force.value_n for force, kept in found if not kept and force.words == denied}
     if denied and denied_n.issuperset(force.value_n for force in kept_forces):
         return [], denied, rest
+    if not kept_forces and (unwanted := [force for force, _ in found if force.words in denials]):
+        return [], unwanted[0].words, rest
     kept_forces = kept_forces or [force for force, _ in found]
     bounds = {force.value_n for force in kept_forces if force.kind != "value"}
     return [f for f in kept_forces if f.kind != "value" or f.value_n not in bounds], "", rest

@@ -13,7 +13,7 @@ from policies.instructions.quantities.bounds import with_plain_bounds
 from policies.instructions.quantities.elisions import left_over, written_out
 from policies.instructions.quantities.factors import denied_factor, read_delta, read_factor
 from policies.instructions.quantities.force import WORKED_OUT, Force
-from policies.instructions.quantities.force_units import NUMBER, UNIT, number
+from policies.instructions.quantities.force_units import NUMBER, ONE_FORCE, UNIT, number
 from policies.instructions.quantities.forces import read_forces
 from policies.instructions.quantities.masses import Masses, without_masses
 from policies.instructions.quantities.numerals import in_digits
@@ -72,6 +72,11 @@ class Quantities:
     rest: str = ""
 
 
+_FILLED = re.compile(
+    rf"\b(?P<bound>at (?:the )?(?:very |absolute )?(?:most|least)|(?:no|not) (?:more|less|harder|higher) than)"
+    rf"(?: ?[,:;] ?|\.{{2,3}} ?| )(?:(?:um+|uh+|er+m?|hmm+|like|say|well|oh|let us say|let me say|i would say|you know|i guess)[ ,]+)*(?={NUMBER})"
+)
+"""'At most, say, 0.8 N', 'no more than, um, 1 N'."""
 _ELLIPSIS = re.compile(
     rf"\b(?:not|no) (?:an?|1|one|a single) (millinewton|newton|gram|mn|n|gf) (more|less)(?: than)? ({NUMBER})(?!\s*(?:{UNIT})\b)"
 )
@@ -88,9 +93,18 @@ _PERCENT_OF_NOTHING = re.compile(
 )
 
 
+def _plain_bound(match: re.Match[str]) -> str:
+    """A bound beside its number; one that stands behind a force bounds that one instead."""
+    if re.search(rf"{ONE_FORCE}[ ,]*$", match.string[: match.start()]):
+        return match[0]
+    return f"{match['bound']} "
+
+
 def read_quantities(text: str) -> Quantities:
     """Read the numbers of a plain text (``policies.instructions.english.text.plain``)."""
-    text = _ELLIPSIS.sub(r"no \2 than \3 \1", in_digits(text))
+    text = _FILLED.sub(_plain_bound, in_digits(text))
+    text = re.sub(rf"\b(?:one|1) (?=0?\.\d+\s*(?:{UNIT})\b)", "", text)  # 'one third newton'
+    text = _ELLIPSIS.sub(r"no \2 than \3 \1", text)
     text, masses = without_masses(text)
     text = re.sub(rf"({NUMBER}), (?=newtons?\b)", r"\1 ", text)
     text = re.sub(r"(?<=\d)['\u00a0\u202f ](?=\d{3}\b(?! ?mm))", "", text)  # 1 400 mN

@@ -25,6 +25,8 @@ _MOST = re.compile(
     r"(?<!bottle )(?<!screw )(?<!jar )(?<!pen )(?<!tube )(?<!vial )\bcap(?:s|ped|ping)?(?: \w+){0,3}?(?: at| to| of| is|:| =|=)?|\bceiling(?: of| is| at|:| =|=)?|"
     r"\b(?:alarm|trip(?:ping)?|fault|safety|abort|stop|shut-?down|e-?stop|emergency|overload|warning)s?[ -](?:threshold|level|point|limit|value|mark|line)(?: of| is| at| to|:| =|=)?|\b(?:red|danger) ?line(?: of| is| at|:| =|=)?|"
     r"\b(?:upper|top) (?:\w+ )?(?:limit|bound|end)(?: \w+){0,2}?(?: of| is| at|:| =|=)?|\bpeak(?: \w+){0,2}?(?: of| is| at|:| =|=)?|"
+    r"\b(?:bruis\w*|ruptur\w*|fractur\w*|fail\w*|break\w*|burst\w*|crush\w*|damag\w*|yield\w*|crack\w*|tear\w*|squash\w*|collaps\w*) (?:threshold|onset|force|load|limit|point|level|pressure|strength|mark)s?(?: (?:is|of|at|about))*\s*[:=]?|\b(?:warning|danger|caution)\s*[:=]|"
+    r"\bkeep(?:s|ing)?(?: \w+){0,3} from (?:reach|hitt|gett|ris|go|climb)ing(?: (?:up |all the way )?to)?|\b(?:can not|could not|will not|never) (?:handle|take|stand|bear|withstand|tolerate|survive|endure)|"
     r"<=|≤|=<|\bnot to exceed|\bat (?:the )?worst|\bworst case|\bwithin|\bbounded (?:above )?(?:by|at)|\b(?:not|never)(?: let it)? (?:go|push|squeeze|press)(?: \w{1,4})?|\b(?:top|max|peak|level)(?:p?ing|s|p?ed)?(?: \w+)?(?: out)? at|\b(?:restrict|confin|constrain|throttl)\w*(?: \w+){0,3}? (?:to|at|by)|\b(?:may|can|could|might)(?: only| just| at most)? (?:be (?:raised|increased)|rise|go|climb|increase|grow|build|reach|extend)(?: up)?(?: to)?|\b(?:not|never|without|avoid\w*)(?: (?:ever|let|the|force|it|grip|even|quite|to|be|going|you|allow\w*|pressure|have|want|go|come|rise)){0,5} (?:reach(?:es|ing)?|hit(?:s|ting)?|get(?:s|ting)? (?:up )?to|attain\w*|ris(?:e|es|ing) to|climb\w* to|go(?:ing|es)? (?:up |all the way )?to)|\b(?:budget|allowance)(?: of| is|:)?|\bno more than|\bnowhere near|\b(?:allow(?:ed)?|permit(?:ted)?)(?: is (?:until|till|up to))?(?: (?:up )?to(?: (?:use|reach|rise to|climb to|go(?: up)? to))?)?|"
     r"\b(?:ease|eases|back|let)(?: \w+){0,2} (?:once|when|as soon as|at)(?: (?:you|it|we))?(?: (?:feel|reach|hit|see|measure|get to|read)\w*)?|\bfar (?:away )?from|\b(?:not|never)(?: (?:even|anywhere|get|go|come|be))* (?:close|near)(?: to)?|\bf[_ ]?max\s*[:=]?)"
     r"(?: (?:about|around|roughly))?\s*$"
@@ -36,6 +38,8 @@ _LEAST = re.compile(
     r">=|≥|=>|\bno less than|\bno (?:weaker|less|softer|lower|gentler|looser|smaller)(?: an?)? (?:grip|squeeze|hold|force|clamp|pressure|grasp)(?: strength)? than|\bat (?:the )?(?:very )?least (?:with|at|use|apply)|\b(?:it|berry|fruit|this|that|one|strawberry|thing) (?:really |always )?(?:needs|requires|takes)|\bf[_ ]?min\s*[:=]?|\bstarting (?:at|from)|\bbottom out at)"
     r"(?: (?:about|around|roughly))?\s*$"
 )
+_TAKES = re.compile(r"\b(?:needs|requires|takes)\b")
+"""'It takes 0.8 N, no more'."""
 _OTHERS = r"(?!(?: it| them)?(?: than| of| is| to|:| =| at| with| from| above| over| beyond| by| under| below)?(?: (?:about|around|roughly))?(?: an?)? ?(?:\d|\.\d))"
 """Ends a bound after a number: '2 N, at most 2.2 N' bounds the second number, not the first."""
 
@@ -49,12 +53,12 @@ _UNWANTED = (
 """What is said of a force that is too large."""
 _STRICT = r"(?:(?:absolute|hard|strict|firm|safety|upper|very|fixed|final|outer|allowed|permitted|allowable) )*"
 _MOST_AFTER = re.compile(
-    rf"\s*(?:-|–|,|:)?\s*(?:(?:(?:at|as|is|being) )?(?:an? |the |my |our )?{_STRICT}(?:max(?:imum|imal)?|(?:upper )?(?:limit|ceiling|cap)(?! is\b))\b(?!\.?(?: of| is|:| =)? ?\d)|tops\b|at (?:the )?(?:very |absolute )?most\b|"
+    rf"\s*(?:-|–|,|:)?\s*(?:(?:(?:at|as|is|being) )?(?:an? |the |my |our )?{_STRICT}(?:max(?:imum|imal)?|(?:upper )?(?:limit|ceiling|cap)(?! is\b))\b(?!\.?(?: (?:grip |clamp\w* |holding )?force)?(?: of| is|:| ?=)? ?\d)|tops\b|at (?:the )?(?:very |absolute )?most\b|"
     r"(?:or|and) (?:a (?:little|bit|touch) |slightly |even )?(?:less|below|under|lower|lighter|softer|gentler|smaller)\b(?! (?:no|any|all)\b)|(?: [a-z]+){1,3} at (?:the )?(?:very |absolute )?most\b|"
     r"[;,.]? ?(?:and )?(?:do not|never|not|but not) (?:\w+ ){0,2}(?:past|over|above|beyond|exceed|higher than) (?:it|that|this)\b|"
     r"(?:,? ?(?:and|but|yet|though) )?(?:absolutely |(?:under|in|on|by|at) )?(?:no|not|never|without)(?! need)(?: \w+){0,2} (?:more|higher|harder|above|over|further|beyond|past)\b"
     r"(?!,? (?:and |or )?(?:no|not|nor|never)(?: \w+)? less)(?! (?:no|not) less)|"
-    r"(?:is|as|being)(?: (?!lower)\w+){0,3} (?:limit|max(?:imum)?|ceiling|cap|most|end of the line|last word)\b|(?:limit|ceiling|cap)\b(?!(?: of| is|:| =)? ?\d)|"
+    r"(?:is|as|being)(?: (?!lower)\w+){0,3} (?:limit|max(?:imum)?|ceiling|cap|most|end of the line|last word)\b|(?:limit|ceiling|cap)\b(?!(?: force)?(?: of| is|:| ?=)? ?\d)|"
     r"(?:(?:an?|the|my|your|as|is|as an?|as the) )*upper (?:\w+ )?(?:bound|limit|end)\b|"
     rf"(?:,? ?(?:and|but) (?:it|that|this) )?(?:{_BEEN} )?(?:already |way |far |just |clearly |evidently )*(?:(?:you (?:are|have|would be|were) )?(?:going|gone|squeezing|pressing|gripping) (?:way |much |far )?)?too (?:much|far|hard|firm|high|strong|tight|rough|heavy|great)|and under\b(?! (?:no|any|all)\b)|"
     rf"at the (?:outside|utmost|very top)\b|to (?:play|work) with\b|(?:is|as) (?:the|my|our|a) (?:\w+ )?(?:roof|lid|wall|red line|end of it)\b|{_BEEN} (?:already |strictly |absolutely |still |simply )*{_UNWANTED}|"
@@ -122,6 +126,20 @@ _EITHER_WAY = re.compile(
 _THAT_AFTER = re.compile(
     r"[^.;#\d]{0,40}?\b(below|under|beneath|above|over) (?:that|it)\b(?! (?:goes|is|will))"
 )
+_HARMS_BEYOND = re.compile(
+    rf"(?: (?:it|they|the \w+))?(?: (?:just|only|will|would|easily))* {_HARMS}"
+)
+"""'Above that it bruises'."""
+_LIMIT_AFTER = re.compile(
+    r"\s*[.;(:!,–—-]*\s*(?:(?:and|but) )?(?:(?:that|this|which|it)(?: is|'s| has to be| must be) (?:really |already |also )?(?:the|my|our|your|a|an)? ?(?:very |absolute |hard |upper |strict )*"
+    r"(?:max(?:imum|imal)?|limit|ceiling|cap|most(?: (?:i|we|you|it|that)\b[^.;#\d]*)?|upper (?:limit|bound|end))|(?:hard |absolute |upper |strict )*(?:limit|max(?:imum)?|ceiling)(?=\s*[.;)!]|\s*$)|"
+    r"(?:absolutely |definitely |and |but |really )*no more(?=\s*[.;)!]|\s*$)|(?:that|this|which|it) (?:must|may|should|can|shall|is) (?:not|never) (?:to )?be (?:exceeded|passed|surpassed|crossed)|"
+    r"(?:please |just )*(?:go|push|press|squeeze|rise|get) no (?:higher|further|harder|more|tighter|firmer))\b(?! (?:than|of) \d)(?!\s*(?:is|of|:|=|at|to)?\s*\.?\d)"
+)
+"""'1 N. That is the maximum.' '1 N; absolutely no more'."""
+_FROM = re.compile(r"\bfrom\s*$")
+_DOWN = re.compile(r"\s*(?:and |or )?(?:on )?down(?:wards?)?\b(?! (?:to|by)\b)")
+"""'From 2 N down'."""
 _STOPS_AT = re.compile(r"\bstop\w* (?:\w+ )?at\s*$")
 _HELD_THERE = re.compile(
     r"\s*,? (?:and|then) (?:then )?(?:hold|keep|stay|remain)(?: (?:it|that|the \w+))? (?:there|steady|like that)\b"
@@ -194,7 +212,13 @@ def _end_of_conditional_most(left: str, right: str) -> int | None:
 def relation(left: str, right: str) -> tuple[Kind, int, int]:
     """Kind of a force, and how much of the text on either side says so."""
     if match := _THAT_AFTER.match(right):
-        return ("most" if match[1] in ("below", "under", "beneath") else "least"), len(left), 0
+        is_denied = bool(NOT.search(match[0])) or bool(_HARMS_BEYOND.match(right[match.end() :]))
+        is_most = (match[1] in ("below", "under", "beneath")) != is_denied
+        return ("most" if is_most else "least"), len(left), 0
+    if match := _LIMIT_AFTER.match(right):
+        return "most", len(left), match.end()
+    if _FROM.search(left) and _DOWN.match(right):
+        return "most", len(left), 0
     if _EITHER_WAY.search(left):
         return "value", len(left), 0
     if _STOPS_AT.search(left) and _HELD_THERE.match(right):
@@ -241,6 +265,8 @@ def relation(left: str, right: str) -> tuple[Kind, int, int]:
         most = None  # 'bring it up to 1.4 N'
     if most and (not least or most.start() < least.start()):
         return "most", most.start(), 0
+    if least and _TAKES.search(least.group()) and _MOST_AFTER.match(right):
+        return "most", least.start(), 0
     if least:
         return "least", least.start(), 0
     if match := _MOST_AFTER.match(right):

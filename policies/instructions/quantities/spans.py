@@ -12,9 +12,7 @@ from policies.instructions.english import words
 from policies.instructions.quantities.force_units import ALONE, LOOSE, NUMBER, UNIT, in_newtons
 from policies.instructions.quantities.tolerances import TOLERANCE, band_of
 
-_SIGNED = (
-    rf"(?:(?<![\w.])(?:-|minus |negative )\s?)?(?:{NUMBER}|infinite|infinity|unlimited|inf|nan)"
-)
+_SIGNED = rf"(?:(?<![\w.])(?:-(?=[\d.])|(?:minus|negative) ))?(?:{NUMBER}|infinite|infinity|unlimited|inf|nan)"
 _LINK = r"\s*(?:-|–|—|\.\.\.?|…|,|\bup to\b|\bto\b|\bthrough\b|\b(?:un)?till?\b|\band\b)\s*"
 
 _RANGE = re.compile(
@@ -35,6 +33,11 @@ _CORRECTED = re.compile(
     rf"\W*(?:(?:no|sorry|wait|actually|make (?:that|it)|{words.any_of('correction')})\W+)+"
 )
 """Between a force and a mass: '100 g, no, 150 g'."""
+_DESCRIBED = re.compile(
+    r"\b(?:it|this|that|(?:straw)?berry|fruit|egg|tomato|one|object|thing|peg)(?:'s| is| looks| seems| feels| was)\b[^.;#\d]*\b(?:about|around|roughly|approximately|nearly|some|maybe|perhaps)\s*$"
+)
+"""Before a mass: 'the berry is big, about 40 g'."""
+_OF_FORCE = re.compile(r"\b(?:force|grip|press|squeez|push|hold|held|limit|max|most|target)\w*\b")
 _MASS_WORD = re.compile(r"\b(?:weigh\w*|mass|heavy|scale|berry of|fruit of)\b[^.;]*$")
 _BOUNDED = re.compile(
     r"\s*,?\s*(?:(?:and )?(?:no|not) (?:more|less|over|above|under|below|higher|a gram more)|at (?:the )?(?:very |absolute )?(?:most|least)|max\w*|min\w*|tops?|or (?:less|more|under|over))\b(?! weight)"
@@ -91,6 +94,8 @@ def _is_force(match: re.Match[str], text: str) -> bool:
         return True
     if re.search(r"\b(?:force|press\w*|squeez\w*|push\w*)\b.*\bweight of\s*$", left):
         return True
+    if _DESCRIBED.search(left) and not _OF_FORCE.search(re.split(r"[.;!?]\s", left)[-1]):
+        return False
     return (
         bool(_FORCE_WORD.search(left)) and not _MASS_WORD.search(left) and not _THING.match(right)
     )

@@ -45,6 +45,10 @@ _DIGITS = r"(?<![\w.,])\d+(?:[.,]\d+){2,}"
 _MALFORMED = re.compile(
     rf"(?P<a>{_DIGITS})\s*(?:{UNIT})\b|(?:{BEFORE_BOUND}|{BEFORE_VALUE})(?P<b>{_DIGITS})(?![.,]?\w)"
 )
+_NO_NUMBER = re.compile(
+    rf"(?<![\w.,])(?:\d[\d.,]*(?:[:;_'~|\\]\d[\d.,]*| ?\(\d+\)| over \d[\d.,]*)\s*|(?<!\d )(?:ii+|iv|vi*|ix|xi*) )(?:{UNIT})\b"
+)
+"""'0:3 N', '0.8(1) N', '1 over 3 N', 'iv n'."""
 
 
 _SIGNED_CHANGE = re.compile(
@@ -109,6 +113,8 @@ def unknown_force(text: str) -> str:
     if match := re.search(
         rf"(?<![\w.,])(?:[1-9] ?(?:\. | [.,])|(?<=with )[1-9], )\d+\s*(?:{UNIT})\b", text
     ):
+        return f"{match[0]!r} is no number; say it as '1.2 N'"
+    if match := _NO_NUMBER.search(text):
         return f"{match[0]!r} is no number; say it as '1.2 N'"
     if match := re.search(rf"\d(?:[.,]\d+)?e[+-]?\d{{5,}}\s*(?:{UNIT})\b", text):
         return f"{match[0]!r} is no force; say it as '1.2 N'"
