@@ -50,6 +50,7 @@ from tacgrasp.lessons.dialogue.plainer import (
     in_words,
     is_denied_first,
     plainer,
+    without_thousands,
 )
 from tacgrasp.lessons.dialogue.query import (
     asked_text,
@@ -158,6 +159,7 @@ def understood_by_grammar(question: str, before: str = "") -> ReadQuestion | Non
     Some of its wordings (``MOST_JOINED`` at most) that are joined by a comma, 'and' or a question
     mark are asked together.
     """
+    question = without_thousands(question)
     if stated := denied_statement(question):
         return _denied(understood_by_grammar(f"Is it true that {stated}", before), question)
     wanted = wanted_instead(question)

@@ -311,6 +311,19 @@ _ALSO_IN = re.compile(
 """'How deep is it? And in inches?', in one line."""
 
 
+_THOUSANDS = re.compile(
+    r"(?<![\d.,])[1-9]\d{0,2}(?:(?:,\d{3})+|(?:['’ \u00a0\u202f]\d{3})+)(?![\d,])(?=(?:\.\d+)? ?"
+    r"(?:g|gr|grams?|mg|kg|mn|millinewtons?|n|newtons?|[µu]n|[µu]m|microns?|micromet\w+|mm²|mm2)\b)",
+    re.I,
+)
+"""'1,200 g', '3 500 mN'; '1,200 mm' is a decimal comma."""
+
+
+def without_thousands(text: str) -> str:
+    """A text whose numbers have nothing between their thousands: '1200 g' for '1,200 g'."""
+    return _THOUSANDS.sub(lambda number: re.sub(r"\D", "", number[0]), text)
+
+
 def plainer(question: str) -> str:
     """A question without address, thanks and tag, and without the denial that expects 'yes'."""
     question = _HOW_FAR_AWAY.sub("", _HOWS.sub(r"\g<how> is ", question))

@@ -21,7 +21,7 @@ from tacgrasp.lessons.dialogue.scene import HOLD, LIFT, AskedScene
 from tacgrasp.lessons.read_question import ReadQuestion
 from tacgrasp.lessons.turns.certainty import LAST, doubted_by
 from tacgrasp.lessons.turns.follow_ups import asks_by_how_much
-from tacgrasp.lessons.turns.told import with_told
+from tacgrasp.lessons.turns.told import not_so, with_told
 from tacgrasp.lessons.turns.turn import Turn
 from tacgrasp.lessons.understanding import understood_by_grammar
 
@@ -95,6 +95,9 @@ class Dialogue:
             return said
         if refuted := refuted_premise(question, self._scene):
             return Said(answer=refuted)
+        if "?" not in question and (words := not_so(question)):
+            text = f"Not noted: {words!r} tells nothing of what is held now."
+            return Said(answer=Answer(text=text, kind=AnswerKind.TEXT))
         self._turn = self._read(self._in_full(question), self._turn)
         try:
             scene = self._scene_of(self._turn)

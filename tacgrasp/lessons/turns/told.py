@@ -13,7 +13,7 @@ import re
 from dataclasses import dataclass, replace
 
 from tacgrasp.lessons.dialogue.meaning import Amount, Meaning, Several, names_of
-from tacgrasp.lessons.dialogue.plainer import AUXILIARY
+from tacgrasp.lessons.dialogue.plainer import AUXILIARY, without_thousands
 from tacgrasp.lessons.dialogue.scene import AskedScene, band_contract
 from tacgrasp.lessons.turns.units import dimension_of, in_own_unit
 
@@ -101,7 +101,7 @@ def told_in(text: str, about: Meaning | None = None) -> tuple[Told, str] | None:
         text: The text.
         about: What was asked for, or told, before it: what a correction is of.
     """
-    text = text.strip()
+    text = without_thousands(text.strip())
     if _WHAT_IF.match(text):
         text = text.rstrip("? ")
     corrected = _CORRECTED.fullmatch(text)
@@ -200,6 +200,25 @@ _CHANGES = re.compile(
     re.I,
 )
 """What a mass may be besides that of the object."""
+
+
+_NOT_SO = re.compile(
+    r"\b(?:(?:is|was|are|were)(?:n['’]?t| not)|(?:does|do|did)(?:n['’]?t| not) (?:weigh|have|be)|"
+    r"never was|no longer)\b[^.;?,]*\d|"
+    r"\b(?:(?:i|we) (?:doubt|wonder|am not sure|do not think|don['’]?t (?:think|believe|know)))\b|"
+    r"\b(?:yesterday|last (?:week|time|month|year|night)|used to|formerly|in the past)\b|"
+    r"\b(?:the )?(?:last|previous|other|former|old) (?:one|robot|gripper|arm|object|berry|rig)\b|"
+    r"\b(?:gripper|robot|arm|sensor|finger|box|tray|basket|table|camera|bench|load cell)s?"
+    r"(?:['’]s)? (?:weighs?|weighed|limit|mass)\b|(?<![\w\d])[-−]\s?\d",
+    re.I,
+)
+"""What is denied, doubted or past, or something else's."""
+
+
+def not_so(text: str) -> str:
+    """Words by which a statement tells nothing of what is held now; '' of all others."""
+    found = _NOT_SO.search(text)
+    return found[0] if found and told_in(text) is not None else ""
 
 
 def _told_freely(text: str) -> tuple[Told, str] | None:

@@ -74,6 +74,16 @@ _DOUBT = re.compile(
     r"(?P<what>shape|texture|depth|position|location|force|area|surface)"
 )
 _REASONS = {"location": "position", "surface": "texture", "force": "felt", "area": "felt"}
+_BREAKS_AT = re.compile(
+    r"(?:(?:what|which|how much|how many) (?:force|squeeze|newtons?|load|grip|n)|"
+    r"(?:at|with|from) (?:what|which) (?:force|squeeze|load|grip|newtons?)) .*\b"
+    r"(?:bruis|crush|break|burst|crack|squash|ruptur|split)\w*(?: (?:it|this|that|the \w+))?"
+)
+"""'What force would bruise it?'"""
+_HARDNESS = re.compile(
+    r"how (?:hard|stiff|soft|elastic|firm) (?:is|are) (?:the|this|that) "
+    r"(?:object|thing|material|skin|item|fruit|berry|body)"
+)
 _GRID = re.compile(
     r"(?=.*\b(?:grid|raster|# by #|# x #)\b).*\b(?:which|what) (?:box|cell|square|field|sector|"
     r"tile|region|compartment)(?: of (?:the|it|a) .*)? (?:is|does|has|holds?|contains?)\b.*"
@@ -115,6 +125,8 @@ def other_query(words: str) -> str:
         return "word side_x." if _SIDEWAYS.search(words) else "word side_y."
     if _EXTENT.fullmatch(words):
         return "unknown size."
+    if _BREAKS_AT.fullmatch(words) or _HARDNESS.fullmatch(words):
+        return "unknown trait."
     if _NOT_NORMAL.search(words) or _COUNTED.match(words):
         return "unknown trait."
     if (

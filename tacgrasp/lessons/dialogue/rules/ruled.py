@@ -25,6 +25,14 @@ _EDGE_FIRST = re.compile(
     re.I,
 )
 """'Left edge: does it cut it?'"""
+_NEWTONS = r"(?P<{0}>\d+(?:\.\d+)?) ?(?P<{0}u>m?N|(?:milli)?newtons?)"
+_SAFE_FORCE = re.compile(
+    rf"(?:(?:would|will) {_NEWTONS.format('a')}(?: still)? be|is {_NEWTONS.format('b')}|"
+    rf"(?P<at>is it|would it be) safe (?:at|with) {_NEWTONS.format('c')})"
+    r"(?(at)| (?:a )?safe(?: (?:force|grip|to (?:lift|hold|use)(?: it)?(?: with)?))?)[?.! ]*",
+    re.I,
+)
+"""'Would 2.9 N be safe?' asks for the band."""
 _NOT_TAGGED = re.compile(
     rf"(?:so |and |but |then )?not (?P<stated>[^.?!:;,]+), (?:{AUXILIARY}) (?:it|they|we|you|"
     r"that)[?.! ]*",
@@ -39,6 +47,10 @@ def ruled(question: str) -> Meaning | None:
     Args:
         question: The question, as ``tacgrasp.lessons.dialogue.plainer`` leaves it.
     """
+    if safe := _SAFE_FORCE.fullmatch(question):
+        force, unit = next((safe[n], safe[f"{n}u"]) for n in "abc" if safe[n])
+        newtons = float(force) / (1000 if unit.lower().startswith("m") else 1)
+        return read_query(f"calculate band_low_n <= {newtons:g} <= band_high_n.")
     asked = asked_text(question)
     plain = " ".join(plain_words(question))  # 'half of the pad' is no percentage here
     query = (
