@@ -102,6 +102,16 @@ def write_card(folder: Path, facts: Mapping[str, str]) -> None:
     _write(folder, "\n".join(lines), "\n\n| | |\n|---|---|\n")
 
 
+def facts_of(folder: Path) -> dict[str, str]:
+    """Facts of the model card in a folder by their names; empty where there is no card."""
+    path = folder / CARD
+    if not path.exists():
+        return {}
+    above = path.read_text(encoding="utf-8", errors="replace").partition(_PARTS)[0]
+    rows = [line.strip("| ").split(" | ", 1) for line in above.splitlines()]
+    return {row[0]: row[1] for row in rows if len(row) == 2}
+
+
 def renew_card(folder: Path, facts: Mapping[str, str] | None = None) -> None:
     """Write today's front matter and parts into a card; scores and other facts stay as they are.
 

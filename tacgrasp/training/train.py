@@ -21,7 +21,7 @@ from transformers.utils.logging import disable_progress_bar
 
 from cltp.atomic_write import copy_files, copy_folder, new_folder, write_atomically
 from cltp.checkpoints.base_lm import is_stock
-from cltp.checkpoints.card import PARTS, write_card
+from cltp.checkpoints.card import PARTS, facts_of, write_card
 from cltp.checkpoints.manifest import manifest_digest, write_manifest
 from cltp.checkpoints.tac3d_llm import load_clip, load_encoder, load_tac3d_llm, size_bytes
 from cltp.data.dataset import ContactDataset
@@ -156,6 +156,7 @@ def train_language_model(request: TrainLlmRequest, command: str) -> None:
         "contacts": str(contacts),
         "data checksum": ContactDataset(data).checksum(),
         **_about_also(request),
+        **_about_begun(start or language),
         "torch": torch.__version__,
         "python": platform.python_version(),
         "last run took": f"{(time.monotonic() - began_s) / 60:.0f} min",
@@ -224,6 +225,15 @@ def _about_also(request: TrainLlmRequest) -> dict[str, str]:
         return {}
     data = ContactDataset(request.also)
     return {"also learned from": f"{len(data)} contacts, data checksum {data.checksum()}"}
+
+
+def _about_begun(begun: Path | None) -> dict[str, str]:
+    """What the model card says of the weights that the training began with."""
+    if begun is None:
+        return {}
+    facts = facts_of(begun)
+    parts = [facts[name] for name in ("command", "encoder and clip", "began with") if name in facts]
+    return {"began with": "; ".join(parts) or begun.name}
 
 
 def _words(request: TrainLlmRequest, begun: Path | None) -> Words:
