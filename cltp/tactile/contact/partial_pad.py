@@ -100,8 +100,9 @@ def cut_off_part(cloud: TactileCloud) -> float:
         return 0.0
     if len(np.unique(others)) < _LEAST_UNLIKE * len(others):
         return 0.0
-    relief = np.abs(heights - ndimage.uniform_filter(heights, 3, mode="nearest"))
-    noise_mm = float(np.median(relief[~ndimage.binary_dilation(is_highest, iterations=2)]))
+    bends = np.diff(np.diff(heights, 2, axis=0), 2, axis=1) / 6  # no curve along either axis
+    is_away = ~ndimage.binary_dilation(is_highest, iterations=2)[1:-1, 1:-1]
+    noise_mm = float(np.median(np.abs(bends[is_away]))) if is_away.any() else 0.0
     return float(part) if noise_mm > _LEAST_NOISE_MM else 0.0
 
 
