@@ -88,12 +88,12 @@ def _is_figures(text: str) -> bool:
     if isinstance(content, dict) and content.keys() >= {"about", "results"}:
         return True  # a long benchmark's, of a version without the key: --resume goes on with it
     if isinstance(content, list) and content and isinstance(content[0], dict):
-        return content[0].get("event") == "contract"
+        return content[0].get("event") in ("contract", "end")
     try:
         first = json.loads(text.partition("\n")[0])
     except ValueError:
         return False
-    return isinstance(first, dict) and first.get("event") == "contract"
+    return isinstance(first, dict) and first.get("event") in ("contract", "end")
 
 
 def _is_page(text: str) -> bool:

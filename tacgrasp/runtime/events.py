@@ -22,7 +22,7 @@ from tacgrasp.base.errors import UsageError
 from tacgrasp.config.terms import contract_json
 from tacgrasp.episodes.codec import to_json
 from tacgrasp.episodes.record import StepRecord
-from tacgrasp.runtime.outcome import Outcome
+from tacgrasp.runtime.outcome import EndReason, Outcome
 
 
 class EventFile:
@@ -39,6 +39,7 @@ class EventFile:
         self._file: FileIO | None = None
         self._is_array = self._is_empty = False
         self._began_s: float | None = None
+        self._has_ended = False
         self.problem = ""
 
     def __enter__(self) -> EventFile:
@@ -65,6 +66,11 @@ class EventFile:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
+        """Close the file; one that was stopped before the run began says so."""
+        if error is not None and not self._has_ended:
+            stopped = isinstance(error, KeyboardInterrupt)
+            reason = EndReason.OPERATOR if stopped else EndReason.FAULT
+            self._unbegun(reason, str(error) or "stopped by the operator")
         if self._file is not None:
             self._file.close()
 
@@ -137,16 +143,22 @@ class EventFile:
         )
 
     def refused(self, contract: Contract) -> None:
+        """The end of a run whose contract is refused."""
+        self._unbegun("refused", contract.refused)
+
+    def _unbegun(self, reason: str, message: str) -> None:
         """The end of a run that did not begin."""
         nothing = dict.fromkeys(
             ("safe_state", "verified", "bruised", "dropped", "peak_force_n", "slip_minimum_n")
         )
-        message = {"reason": "refused", "message": contract.refused}
-        self._write("end", {**message, **nothing, "steps": 0, "actions": 0})
+        self._write(
+            "end", {"reason": reason, "message": message, **nothing, "steps": 0, "actions": 0}
+        )
 
     def _write(self, event: str, fields: dict[str, Any]) -> None:
         if self._file is None:
             return
+        self._has_ended = event == "end"
         text = json.dumps({"event": event, **to_json(fields, event)}, ensure_ascii=False)
         if self._is_array:
             start = "[\n" if self._is_empty else ",\n"

@@ -102,3 +102,21 @@ def test_the_command_writes_an_array_from_contract_to_end(tmp_path):
     end = json.loads(path.read_text("utf-8"))[-1]
     assert (end["reason"], end["safe_state"]) == ("success", "the gripper keeps its grip")
     assert main(argv) == 0  # replaced by the next run
+
+
+@pytest.mark.parametrize("events_before", [0, 1])
+@pytest.mark.parametrize(
+    ("stop", "reason"), [(KeyboardInterrupt(), "operator"), (ValueError("no camera"), "fault")]
+)
+def test_what_stops_a_run_before_it_begins_is_its_end(tmp_path, events_before, stop, reason):
+    path = tmp_path / "events.json"
+    with pytest.raises(type(stop)), EventFile(path) as events:
+        if events_before:
+            events.contract(CONTRACT)
+        raise stop
+    told = json.loads(path.read_text("utf-8"))
+    assert [event["event"] for event in told] == ["contract", "end"][1 - events_before :]
+    assert told[-1]["reason"] == reason
+    assert told[-1]["message"] == (str(stop) or "stopped by the operator")
+    assert told[-1]["verified"] is None
+    check_replaceable(path)
