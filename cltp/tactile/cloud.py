@@ -175,7 +175,7 @@ def check_relief(heights_mm: NDArray[np.floating], *, name: str = "cloud") -> No
     if ROUNDING_MM < relief < METRES_MM:
         raise TouchError(
             f"the {name}'s whole relief is {relief:.2g}, below a gel's noise in mm; "
-            "is it in metres? Multiply by 1000"
+            "is it in metres? Multiply by 1000. In mm it is too little to be felt"
         )
 
 

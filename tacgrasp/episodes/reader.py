@@ -69,7 +69,7 @@ def read_episode(path: Path) -> Episode:
         return _episode(messages, scan)
     except (ValueError, TouchError, RobotError) as error:
         raise EpisodeError(
-            f"{path}: a record can't be understood: {error}. It is of a known format, but perhaps "
+            f"{path}: a record can't be understood: {error}. The file is damaged, or "
             "written by another version of tacgrasp; read it with that one"
         ) from error
 

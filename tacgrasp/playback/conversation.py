@@ -6,6 +6,7 @@ Not here: the dialogue itself (``tacgrasp.lessons.turns.dialogue``), the lines o
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
@@ -18,6 +19,7 @@ from cltp.tactile.contact.raised_pad import is_raised, raised_text
 from cltp.tactile.contact.single_cloud import is_touched
 from cltp.tactile.encoder_input import encoder_input
 from cltp.tactile.states import NO_CONTACT_STATE
+from policies.llm.policy import flag_reason
 from policies.llm.spoken import SpokenContact, spoken_contact
 from primitives.contract import Contract
 from tacgrasp.lessons.dialogue.answers import Answer
@@ -25,7 +27,16 @@ from tacgrasp.lessons.dialogue.meaning import AnswerKind
 from tacgrasp.lessons.dialogue.scene import AskedScene
 from tacgrasp.lessons.turns.dialogue import Dialogue, Said
 from tacgrasp.lessons.turns.turn import next_turn
-from tacgrasp.playback.describe import RAISED, cloud_flags, contact_flags, zero_flags
+from tacgrasp.playback.describe import (
+    RAISED,
+    cloud_flags,
+    contact_flags,
+    unadvised_text,
+    zero_flags,
+)
+
+_ADVISES = re.compile(r"\baction\b|\bforce (?:within|below|above|enough)\b|band_low_n <= force_n")
+"""In the queries whose answers are acted on."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -90,7 +101,9 @@ class Conversation:
         spoken = SpokenContact(NO_CONTACT_STATE, {}, {})
         self._flags: tuple[str, ...] = ()
         self._unread = f"I can't say: {raised_text(cloud)}." if is_raised(cloud) else ""
+        self._unadvised = ""
         is_in_contact = not self._unread and is_touched(cloud)
+        mass_g = None if mass_g is None else float(mass_g)
         told = AskedScene(contract=contract, mass_g=mass_g, sensor=cloud.sensor)
         if self._unread:
             self._flags = (RAISED,)
@@ -101,6 +114,7 @@ class Conversation:
             flags = [flag.value for flag in reading.flags]
             flags += contact_flags(cloud, reading.state) + cloud_flags(cloud)
             self._flags = tuple(dict.fromkeys(flags))
+            self._unadvised = unadvised_text(cloud, reading.state) or flag_reason(reading)
         else:
             self._flags = tuple(zero_flags(cloud))
             if is_partial(cloud):
@@ -117,4 +131,8 @@ class Conversation:
         if self._unread:
             unread = Answer(text=self._unread, kind=AnswerKind.UNKNOWABLE, decidable=False)
             return Spoken(said=Said(answer=unread), flags=self._flags)
-        return Spoken(said=self._dialogue.ask(question), flags=self._flags)
+        said = self._dialogue.ask(question)
+        if self._unadvised and _ADVISES.search(said.query):
+            text = f"{said.answer.text} But don't act on it: {self._unadvised}."
+            said = replace(said, answer=replace(said.answer, text=text))
+        return Spoken(said=said, flags=self._flags)

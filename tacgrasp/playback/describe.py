@@ -232,6 +232,15 @@ def _why_unknown(cloud: TactileCloud, flags: Sequence[str]) -> str:
     return lowered_text(cloud) if LOWERED in flags else raised_text(cloud)
 
 
+def unadvised_text(cloud: TactileCloud, state: ContactState) -> str:
+    """Why nothing is advised on a contact, without a full stop; '' where something is."""
+    if is_partial(cloud):
+        return partial_text(cloud)
+    if is_lowered(cloud):
+        return lowered_text(cloud)
+    return apart_text(cloud, state.shape)
+
+
 def describe_by_model(cloud: TactileCloud, model: LlmPolicy, contract: Contract) -> list[str]:
     """Description and advice of the language model, a line each.
 
@@ -242,13 +251,8 @@ def describe_by_model(cloud: TactileCloud, model: LlmPolicy, contract: Contract)
     decision = model.decide(Observation(cloud=cloud), contract)
     read = model.read(cloud)
     doubt = differing(contact_state(cloud, in_contact=True), read.numbers)
-    apart = apart_text(cloud, read.state.shape)
-    if is_partial(cloud):
-        advice = f"no action: {partial_text(cloud)}"
-    elif is_lowered(cloud):
-        advice = f"no action: {lowered_text(cloud)}"
-    elif apart:
-        advice = f"no action: {apart}"
+    if unadvised := unadvised_text(cloud, read.state):
+        advice = f"no action: {unadvised}"
     elif decision.action is not None:
         advice = f"{decision.action} (confidence {decision.confidence:.2f})"
     elif decision.success:

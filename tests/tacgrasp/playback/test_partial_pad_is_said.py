@@ -9,8 +9,12 @@ from cltp.errors import TouchError
 from cltp.tactile.cloud import TactileCloud, cloud_of_pixels
 from cltp.tactile.sensors import sensor_named
 from policies import Observation
+from policies.llm.policy import LlmPolicy
 from policies.rules import RulesPolicy
+from sim.independent.contacts import make_contact
+from tacgrasp.playback.conversation import Conversation
 from tacgrasp.playback.describe import PARTIAL, describe, describe_in_numbers
+from tacgrasp.policy_factory import shipped_weights
 from tacgrasp.rig.gel_sense import GelSense
 from tacgrasp.serving.unread import unread_reason
 from tacgrasp.testing import CONTRACT
@@ -66,3 +70,14 @@ def test_the_remedy_for_nan_says_that_a_hole_is_not_read() -> None:
     points = np.where(PIXELS[:, :1] > 0, np.float32(np.nan), PIXELS)
     with pytest.raises(TouchError, match=r"drop them where they are few .* hole is not read"):
         TactileCloud(points_mm=points, sensor=MINI)
+
+
+def test_an_answer_that_would_be_acted_on_says_that_it_is_not_to_be() -> None:
+    talker = LlmPolicy(shipped_weights()).talker
+    asked = Conversation(cut(7.0, contact_mm=-4.0), talker, contract=CONTRACT, mass_g=20)
+    for question in ("What next?", "Is it safe to lift?"):
+        assert "But don't act on it: points cover 8" in asked.ask(question).text
+    assert "act on it" not in asked.ask("How deep is it?").text
+    pressed = cloud_of_pixels(make_contact(1_600_000, MINI).height_mm, MINI)
+    whole = Conversation(pressed, talker, contract=CONTRACT)
+    assert "act on it" not in whole.ask("What next?").text
