@@ -64,9 +64,9 @@ weights: setup
 	$(BIN)/tacgrasp data generate --set full --out runs/full --seed 0
 	$(BIN)/tacgrasp train clip --data runs/full --out runs/pretrained --steps 700 \
 	    --precision $(PRECISION)
-	$(BIN)/tacgrasp train cltp --data runs/full --out runs/pretrained --steps 8000 \
+	$(BIN)/tacgrasp train cltp --data runs/full --out runs/pretrained --steps 8000 --coarse 0.1 \
 	    --precision $(PRECISION)
-	$(BIN)/tacgrasp train llm --data runs/full --methods runs/pretrained --out weights \
+	$(BIN)/tacgrasp train llm --data runs/full --methods runs/pretrained --out weights --coarse 0.1 \
 	    --precision $(PRECISION)
 	$(BIN)/tacgrasp eval --data runs/full --weights weights --card
 
