@@ -68,7 +68,7 @@ _NO_DENIAL = re.compile(
 )
 """'Why not use 2 N', 'it did not slip at 0.5 N': what is denied is not the force."""
 _REJECTED = re.compile(
-    rf"\s*[:,;.!–—-]*\s*(?:(?:no way|no thanks?|no chance|not a chance|absolutely not|certainly not|definitely not|not on your life|nope|never|forget it)[.!]*\s*$|"
+    rf"\s*(?:[:,;.!–—-]*\s*(?:no way|no thanks?|no chance|not a chance|absolutely not|certainly not|definitely not|not on your life|nope|never|forget it)[.!]*\s*$|"
     rf"(?:\w+ ){{0,2}}?{FORBIDDEN_AFTER}|(?:is|would be|was|sounds|seems) (?:just |plain |simply |really |rather )?(?:an? )?(?:(?:really |very |terribl[ey] )?(?:bad|terrible|awful|poor|stupid|foolish|silly|crazy|dreadful) (?:idea|choice|plan)|foolish|unwise|inadvisable|stupid|crazy|insane|madness|reckless|irresponsible|nonsense|folly)\b|"
     r",? ?like the (?:\w+ ){1,3}?(?:that|which|you) (?:(?:got|was|were|had|just) )*(?:crush|bruis|squash|burst|broke|ruin|split)\w*)"
 )

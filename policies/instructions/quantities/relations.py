@@ -133,7 +133,7 @@ _HARMS_BEYOND = re.compile(
 _LIMIT_AFTER = re.compile(
     r"\s*[.;(:!,–—-]*\s*(?:(?:and|but) )?(?:(?:that|this|which|it)(?: is|'s| has to be| must be) (?:really |already |also )?(?:the|my|our|your|a|an)? ?(?:very |absolute |hard |upper |strict )*"
     r"(?:max(?:imum|imal)?|limit|ceiling|cap|most(?: (?:i|we|you|it|that)\b[^.;#\d]*)?|upper (?:limit|bound|end))|(?:hard |absolute |upper |strict )*(?:limit|max(?:imum)?|ceiling)(?=\s*[.;)!]|\s*$)|"
-    r"(?:absolutely |definitely |and |but |really )*no more(?=\s*[.;)!]|\s*$)|(?:that|this|which|it) (?:must|may|should|can|shall|is) (?:not|never) (?:to )?be (?:exceeded|passed|surpassed|crossed)|"
+    r"(?:absolutely |definitely |and |but |really )*(?:no|never|not|nothing) (?:more|higher|harder|further)(?=\s*[.;)!]|\s*$)|(?:that|this|which|it) (?:must|may|should|can|shall|is) (?:not|never) (?:to )?be (?:exceeded|passed|surpassed|crossed)|"
     r"(?:please |just )*(?:go|push|press|squeeze|rise|get) no (?:higher|further|harder|more|tighter|firmer))\b(?! (?:than|of) \d)(?!\s*(?:is|of|:|=|at|to)?\s*\.?\d)"
 )
 """'1 N. That is the maximum.' '1 N; absolutely no more'."""
@@ -215,16 +215,16 @@ def relation(left: str, right: str) -> tuple[Kind, int, int]:
         is_denied = bool(NOT.search(match[0])) or bool(_HARMS_BEYOND.match(right[match.end() :]))
         is_most = (match[1] in ("below", "under", "beneath")) != is_denied
         return ("most" if is_most else "least"), len(left), 0
-    if match := _LIMIT_AFTER.match(right):
-        return "most", len(left), match.end()
-    if _FROM.search(left) and _DOWN.match(right):
-        return "most", len(left), 0
     if _EITHER_WAY.search(left):
         return "value", len(left), 0
     if _STOPS_AT.search(left) and _HELD_THERE.match(right):
         return "value", len(left), 0
     if exact := _EXACT_AFTER.match(right):
         return "value", len(left), exact.end()
+    if match := _LIMIT_AFTER.match(right):
+        return "most", len(left), match.end()
+    if _FROM.search(left) and _DOWN.match(right):
+        return "most", len(left), 0
     if match := _LOWERED.search(left):
         return "most", match.start(), 0
     if (cut := _end_of_conditional_most(left, right)) is not None:
