@@ -64,7 +64,7 @@ _AGAINST = re.compile(
 _NO_DENIAL = re.compile(
     r"\bwhy (?:not|do not)\b|\b(?:can|could|will|would|do|should) not (?:you|we)\b|\b(?:slip|slid|crush|bruis|squash)\w*|\bstop\w* (?:\w+ )?at\s*$|"
     r"\b(?:harder|firmer|more|higher|tighter|above|over) (?:or|nor) (?:softer|gentler|less|lower|looser|below|under)\b|\b(?:will|would) not do\b|"
-    r"\bnot (?:too|go(?:ing)? wrong|mind|object|hesitate|forget|fail|be (?:shy|afraid|scared))\b|\b(?:nothing|no|never) (?:wrong|problem|objection|harm)\b"
+    r"\bnot (?:too|go(?:ing)? wrong|mind|object|hesitate|forget|fail|be (?:shy|afraid|scared))\b|\b(?:nothing|no|never|not) (?:wrong|problem|objection|harm|hurry|rush|worr(?:y|ies)|stress|panic|gent\w+|soft\w*)\b"
 )
 """'Why not use 2 N', 'it did not slip at 0.5 N': what is denied is not the force."""
 _REJECTED = re.compile(
