@@ -42,7 +42,7 @@ from cltp.encoder.encoder import TactileEncoder
 from cltp.encoder.heads import StateHeads
 from cltp.llm.adapter import merged
 from cltp.llm.causal_lm import Language, load_language
-from cltp.llm.stored_lm import load_stored_lm, write_seed_oss_config
+from cltp.llm.stored_lm import SMALL_LM_SETTINGS, load_stored_lm, write_seed_oss_config
 from cltp.llm.tac3d_llm import Tac3dLlm
 from cltp.texts.tokenizer import Words
 
@@ -186,7 +186,7 @@ def save_pretrained(folder: Path, model: Any, words: Words) -> None:
     state = {name: value.clone() for name, value in model.state_dict().items()}
     try:
         model.half().save_pretrained(part)
-        if model.config.model_type == "qwen2":
+        if model.config.model_type in SMALL_LM_SETTINGS:
             write_seed_oss_config(part)
         words.save(part)
         write_manifest(part)

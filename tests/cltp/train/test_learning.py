@@ -420,6 +420,8 @@ def test_training_that_starts_from_weights_begins_where_they_ended(
     train_cltp(run, TINY, slow, augmentation=CLEAN, start=trained / "encoder")
     words = Words.load(trained / "lm")
     train_llm(run, words, FakeLessons(), {"joint": slow}, augmentation=CLEAN, start=trained)
+    begun, own = ((folder / "lm" / "config.json").read_text() for folder in (trained, tmp_path))
+    assert own == begun
     before, after = (load_tac3d_llm(folder).state_dict() for folder in (trained, tmp_path))
     assert before.keys() == after.keys()
     assert all(torch.allclose(before[name], after[name], atol=1e-5) for name in before)
