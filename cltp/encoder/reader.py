@@ -179,7 +179,7 @@ def reading_of(
         flags.append(Flag.FORCE)
     return TouchReading(
         state=state,
-        numbers=numbers_of(read, state),
+        numbers=_agreeing(numbers, state),
         confidence={name: float(chance.max()) for name, chance in chances.items()},
         contact=contact,
         flags=tuple(flags),
@@ -191,9 +191,13 @@ def numbers_of(read: HeadReadings, state: ContactState) -> dict[str, Number]:
 
     An interval reaches as far as its number. Where nothing touches, all are as they are read.
     """
-    numbers = _numbers(read)
+    return _agreeing(_numbers(read), state)
+
+
+def _agreeing(numbers: Mapping[str, Number], state: ContactState) -> dict[str, Number]:
+    """Numbers as they are read, with the values of a state."""
     if not state.in_contact:
-        return numbers
+        return dict(numbers)
     return {
         name: Number(value, min(value, low), max(value, high))
         for name, (_, low, high) in numbers.items()

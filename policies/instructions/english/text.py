@@ -93,7 +93,7 @@ def plain(text: str) -> str:
     text = re.sub("(?<=[\\w)])([⁰¹²³⁴⁵⁶⁷⁸⁹])", r"^\1", text)  # '0.5²' is no 0.52
     text = unicodedata.normalize("NFKC", html.unescape(text)).lower()
     text = "".join(c for c in text if unicodedata.category(c) != "Cf")  # what nobody sees
-    text = text.replace("()", "").replace("−", "-").replace("⩽", "<=").replace("&lt;", "<")
+    text = text.replace("()", "").replace("−", "-").replace("⩽", "<=")
     for pattern, replacement in (*_TYPED, *_CONTRACTIONS, *_FOREIGN_BOUNDS):
         text = re.sub(pattern, replacement, text)
     text = re.sub(r"\banything (?:but|other than|except)\b", "not", text)
