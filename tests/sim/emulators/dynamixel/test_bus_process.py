@@ -37,9 +37,12 @@ class SlowLoad:
 
 
 class PatientPort(sdk.PortHandler):
-    """The SDK's port with a longer time-out: on a busy computer 34 ms end without a fault."""
+    """The SDK's port with a longer time-out: on a busy computer 34 ms end without a fault.
 
-    patience_ms = 250.0
+    Tests that wait for silence ask for less patience.
+    """
+
+    patience_ms = 2000.0
 
     def setPacketTimeout(self, packet_length: int) -> None:  # noqa: N802 - the SDK's name
         super().setPacketTimeout(packet_length)
@@ -161,6 +164,7 @@ def test_sync_read_and_fast_sync_read_give_both_servos_and_fail_when_one_is_sile
         assert read() == 0
         assert [group.getData(i, at.PRESENT_POSITION, 4) for i in (1, 2)] == [2496, 1600]
     emulator.inject("silence", id=1)
+    line.port.patience_ms = 100.0
     assert group.txRxPacket() == TIMEOUT
     assert group.fastSyncRead() == TIMEOUT
 
@@ -246,14 +250,14 @@ def test_the_fingers_stand_and_say_that_they_move_while_the_load_is_solved(bus):
 
 def test_the_profile_limits_the_speed(bus):
     _, line = bus(SlowLoad())
-    line.write(at.PROFILE_VELOCITY, 4, 50)
+    line.write(at.PROFILE_VELOCITY, 4, 30)
     line.close_on(82)
     speeds = []
-    end = time.monotonic() + 5
+    end = time.monotonic() + 10
     while min(speeds, default=0) == 0 or line.value(at.MOVING, 1):
         speeds.append(line.value(at.PRESENT_VELOCITY, 4))
         assert time.monotonic() < end, "the fingers never moved"
-    assert min(speeds) == -50
+    assert min(speeds) == -30
 
 
 def test_opening_releases_once_and_the_same_grip_again_asks_again(bus):
@@ -325,14 +329,17 @@ def test_a_wrong_crc_is_one_corrupt_answer(bus):
 def test_silence_is_a_timeout_until_it_is_cleared(bus):
     emulator, line = bus()
     emulator.inject("silence")
+    line.port.patience_ms = 100.0
     assert line.read(at.PRESENT_POSITION, 4)[1] == TIMEOUT
     emulator.clear()
+    line.port.patience_ms = PatientPort.patience_ms
     assert line.read(at.PRESENT_POSITION, 4)[1] == 0
 
 
 def test_a_partial_answer_is_corrupt_after_the_timeout(bus):
     emulator, line = bus()
     emulator.inject("partial_reply")
+    line.port.patience_ms = 100.0
     assert line.read(at.PRESENT_POSITION, 4)[1] == CORRUPT
 
 
@@ -353,7 +360,9 @@ def test_a_late_answer_comes_as_the_answer_to_the_next_read(bus):
 def test_at_another_baud_rate_nothing_is_understood(bus, garbage, results):
     emulator, line = bus()
     emulator.inject("wrong_baud", garbage=garbage)
+    line.port.patience_ms = 100.0
     assert line.packets.ping(line.port, 1)[1] in results
+    line.port.patience_ms = PatientPort.patience_ms
     line.port.setBaudRate(57600)
     assert line.packets.ping(line.port, 1) == (1220, 0, 0)
 
