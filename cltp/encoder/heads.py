@@ -167,24 +167,33 @@ class StateHeads(nn.Module):
             return pooled.new_ones(1)
         return torch.where(self.lengths_along, pooled[:, -1:].exp(), 1.0)
 
-    def calibrate(self, pooled: Tensor, labels: Targets) -> None:
+    def calibrate(self, *read: tuple[Tensor, Targets]) -> None:
         """Set the intervals by contacts that nothing was learned from: fit by half, widen by half.
 
         With fewer than ``LEAST_CONTACTS`` that touch, they stay as they are.
 
         Args:
-            pooled: Their pooled tokens, shape (N, 2 C).
-            labels: Their labels.
+            read: Pooled tokens (N, 2 C) and labels of the contacts, under one kind of noise each.
+                The intervals are fitted by the first, and are wide enough for every one. If there
+                are several, row n is the same contact in all of them.
         """
-        touched = labels.touching > 0
-        if self.widening is None or int(touched.sum()) < LEAST_CONTACTS:
+        touching = [labels.touching > 0 for _, labels in read]
+        count = int(touching[0].sum())
+        if self.widening is None or count < LEAST_CONTACTS:
             return
         self.widening.fill_(1.0)
-        pooled, truth = pooled[touched].detach(), labels.numbers[touched]
-        if len(pooled) >= 2 * FIT_CONTACTS:
-            self._fit(pooled[::2], truth[::2])
-            pooled, truth = pooled[1::2], truth[1::2]
-        self._widen(pooled, truth)
+        rest = slice(None)
+        if count >= 2 * FIT_CONTACTS:
+            pooled, labels = read[0]
+            fitted = touching[0].nonzero()[:, 0]
+            fitted = fitted[fitted % 2 == 0]
+            self._fit(pooled[fitted].detach(), labels.numbers[fitted])
+            rest = slice(1, None, 2)
+        factors = [
+            self._needed(pooled[rest][touched[rest]], labels.numbers[rest][touched[rest]])
+            for (pooled, labels), touched in zip(read, touching, strict=True)
+        ]
+        self.widening.copy_(torch.stack(factors).amax(0))
 
     def _fit(self, pooled: Tensor, truth: Tensor) -> None:
         """Fit the rows of the margins, and nothing else, to errors of contacts (N, 2 C), (N, 5)."""
@@ -204,11 +213,11 @@ class StateHeads(nn.Module):
             self.out.bias[-count:] = bias
 
     @torch.no_grad()
-    def _widen(self, pooled: Tensor, truth: Tensor) -> None:
+    def _needed(self, pooled: Tensor, truth: Tensor) -> Tensor:
+        """Factor (5,) by which the margins of contacts (N, 2 C) are too narrow for (N, 5)."""
         read = self(pooled)
-        assert self.widening is not None and read.margins is not None  # as ``calibrate`` has seen
-        errors = truth - read.numbers
-        self.widening.copy_(widening(errors, read.margins))
+        assert read.margins is not None  # as ``calibrate`` has seen
+        return widening(truth - read.numbers, read.margins)
 
     @torch.no_grad()
     def calibrate_contradiction(self, pooled: Tensor, labels: Targets, measured_mm: Tensor) -> None:

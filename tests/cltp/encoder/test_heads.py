@@ -36,7 +36,7 @@ def test_calibrated_intervals_hold_their_part_of_new_contacts(in_cells: bool):
     torch.manual_seed(0)
     heads = StateHeads(16, in_cells=in_cells)
     before = inside(heads, *drawn(4000, 1))
-    heads.calibrate(*drawn(4000, 2))
+    heads.calibrate(drawn(4000, 2))
     after = inside(heads, *drawn(4000, 3))
     assert (before - 0.9).abs().max() > 0.05
     assert (after - 0.9).abs().max() < 0.02
@@ -52,7 +52,7 @@ def test_learned_intervals_grow_where_errors_do():
         terms = heads.losses(pooled, labels)
         (terms["numbers"] + terms["margins"]).backward()
         optimiser.step()
-    heads.calibrate(*drawn(4000, 2))
+    heads.calibrate(drawn(4000, 2))
     pooled, labels = drawn(4000, 3)
     certain = pooled[:, 0] < 0
     widths = heads(pooled).margins.sum(-1)
@@ -66,7 +66,7 @@ def test_calibration_fits_intervals_that_were_never_learned():
     torch.manual_seed(0)
     heads = StateHeads(16)
     before = {name: value.clone() for name, value in heads.named_parameters()}
-    heads.calibrate(*drawn(4000, 2))
+    heads.calibrate(drawn(4000, 2))
     pooled, labels = drawn(4000, 3)
     certain = pooled[:, 0] < 0
     widths = heads(pooled).margins.sum(-1)
@@ -77,9 +77,22 @@ def test_calibration_fits_intervals_that_were_never_learned():
     torch.testing.assert_close(heads.out.weight[:rows], before["out.weight"][:rows])
 
 
+def test_intervals_hold_under_every_noise_that_they_are_set_by():
+    torch.manual_seed(0)
+    heads = StateHeads(16)
+    pooled, labels = drawn(4000, 2)
+    farther = labels._replace(numbers=1.5 * labels.numbers)
+    heads.calibrate((pooled, labels), (pooled, farther))
+    pooled, labels = drawn(4000, 3)
+    farther = labels._replace(numbers=1.5 * labels.numbers)
+    both = torch.stack([inside(heads, pooled, each) for each in (labels, farther)])
+    assert (both.amin(dim=0) - 0.9).abs().max() < 0.02
+    assert both.amin(dim=0).max() < both.amax(dim=0).min()
+
+
 def test_heads_without_intervals_say_so():
     heads = StateHeads(16, intervals=False)
-    heads.calibrate(*drawn(100, 2))
+    heads.calibrate(drawn(100, 2))
     read = heads(torch.randn(2, 16))
     assert read.margins is None
     assert not heads.has_intervals
@@ -89,7 +102,7 @@ def test_a_few_contacts_calibrate_nothing():
     heads = StateHeads(16)
     before = {name: value.clone() for name, value in heads.state_dict().items()}
     for count in (1, 3, 18):
-        heads.calibrate(*drawn(count, 2))
+        heads.calibrate(drawn(count, 2))
     assert all(torch.equal(value, before[name]) for name, value in heads.state_dict().items())
 
 
