@@ -267,6 +267,44 @@ class TrainForceFlags:
 
 
 @dataclass(frozen=True)
+class TrainIntervalsFlags:
+    """Set the intervals of weights' numbers anew; what is read stays as it is.
+
+    Attributes:
+        weights: Folder of weights, or of one method.
+        data: Folder of contacts, which must exist.
+        coarse: Fraction of contacts that are felt by a coarse sensor, as in their training.
+        seed: Random seed of contacts, noise and fit.
+        threads: Threads of torch; one for each core when not given.
+    """
+
+    weights: Path
+    data: Path = Path("runs/full")
+    coarse: float = 0.0
+    seed: int = 0
+    threads: int | None = None
+
+    def train(self, command: str) -> None:
+        """Fit and write."""
+        import torch
+
+        from cltp.train.progress import Bar
+        from tacgrasp.training.force import train_intervals
+
+        if self.threads is not None:
+            torch.set_num_threads(self.threads)
+        with Bar() as report:
+            train_intervals(
+                self.weights,
+                self.data,
+                command,
+                coarse=self.coarse,
+                seed=self.seed,
+                report=report,
+            )
+
+
+@dataclass(frozen=True)
 class TrainSlipFlags:
     """Train the slip models on simulated loads on held bodies; needs no data.
 
@@ -405,6 +443,7 @@ STAGES: dict[str, tuple[type[Any], str]] = {
     "unitouch": (TrainMethodFlags, "Baseline: an image encoder aligned with names of objects."),
     "queries": (TrainQueriesFlags, "What reads questions beside the language model."),
     "force": (TrainForceFlags, "What reads forces from the mechanics of the gel, for any weights."),
+    "intervals": (TrainIntervalsFlags, "How far the numbers of any weights may be off."),
     "slip": (TrainSlipFlags, "The slip models of all sensors that measure shear."),
     "reserve": (TrainReserveFlags, "What tells how much a held contact could still carry."),
     "random": (TrainRandomFlags, "Floor: an encoder that has learned nothing."),
@@ -428,7 +467,7 @@ def main(argv: Sequence[str]) -> int:
     if isinstance(flags, MethodsFlags):
         flags.train(stage, command)
         return 0
-    if isinstance(flags, TrainForceFlags):
+    if isinstance(flags, TrainForceFlags | TrainIntervalsFlags):
         flags.train(command)
         return 0
     if isinstance(flags, TrainQueriesFlags | TrainSlipFlags | TrainReserveFlags):

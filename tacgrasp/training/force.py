@@ -1,18 +1,23 @@
-"""``tacgrasp train force``: fit the force head of weights anew, and leave the rest as it is.
+"""``tacgrasp train force`` and ``train intervals``: what is fitted after an encoder, fitted anew.
 
-The training of an encoder ends with the same fit; this is for weights that have none, and for
-another data set.
+The training of an encoder ends with the same fits; these are for weights that have none, for
+another data set, and for weights of a version that fitted them otherwise.
 """
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 
 from cltp.checkpoints.card import CARD, renew_card
 from cltp.checkpoints.tac3d_llm import load_encoder, save_encoder
+from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset
+from cltp.encoder.encoder import TactileEncoder
+from cltp.encoder.heads import LEAST_CONTACTS, StateHeads
 from cltp.evaluation.splits import LEARNING_NOISE
-from cltp.train.calibration import LEAST_FORCE_CONTACTS, fit_force
+from cltp.train.calibration import LEAST_FORCE_CONTACTS, calibrate_heads, fit_force
 from cltp.train.stage import ProgressReport, TrainingRun, silent
 from tacgrasp.base.errors import UsageError
 from tacgrasp.training.upkeep import write_manifests
@@ -47,7 +52,58 @@ def train_force(
             f"{encoder.config.tokenizer!r}, {data} {len(contacts)} contacts: tacgrasp data "
             "generate --set full"
         )
-    save_encoder(folder, encoder, heads)
+    _write(weights, encoder, heads, {"force head": f"`{command}`, {_origin(contacts)}"})
+
+
+def train_intervals(
+    weights: Path,
+    data: Path,
+    command: str,
+    *,
+    coarse: float = 0.0,
+    seed: int = 0,
+    report: ProgressReport = silent,
+) -> None:
+    """Set the intervals of an encoder's numbers anew and write it; what is read stays as it is.
+
+    Args:
+        weights: Folder of weights, or of one method, with an encoder that reads intervals.
+        data: Data set of contacts.
+        command: The command line, for the model card.
+        coarse: Fraction of contacts that are felt by a coarse sensor, as in training.
+        seed: Random seed of the choice of contacts, of the noise and of the fit.
+        report: Receives the progress.
+
+    Raises:
+        UsageError: The encoder has no intervals, or the data set too few contacts that nothing was
+            learned from.
+        TouchError: Weights or data can't be used.
+    """
+    encoder, heads = load_encoder(weights / "encoder")
+    contacts = ContactDataset(data)
+    held_out = int((contacts.column("split") == Split.VALIDATION.value).sum())
+    if not heads.has_intervals or held_out < LEAST_CONTACTS:
+        raise UsageError(
+            f"intervals are set for heads that have them, by {LEAST_CONTACTS} contacts of the split "
+            f"'validation'; {data} has {held_out} of them: tacgrasp data generate --set full"
+        )
+    run = TrainingRun(data=data, out=weights, seed=seed, report=report)
+    noise = replace(LEARNING_NOISE, coarse=coarse)
+    force, heads.force = heads.force, None
+    calibrate_heads(run, encoder.eval(), heads.eval(), noise)
+    if force is not None:
+        fit_force(run, encoder, heads, noise, force)
+    _write(weights, encoder, heads, {"intervals": f"`{command}`, {_origin(contacts)}"})
+
+
+def _origin(contacts: ContactDataset) -> str:
+    return f"data checksum {contacts.checksum()}"
+
+
+def _write(
+    weights: Path, encoder: TactileEncoder, heads: StateHeads, card: Mapping[str, str]
+) -> None:
+    save_encoder(weights / "encoder", encoder, heads)
     write_manifests(weights)
     if (weights / CARD).exists():
-        renew_card(weights, {"force head": f"`{command}`, data checksum {contacts.checksum()}"})
+        renew_card(weights, card)

@@ -106,3 +106,29 @@ def test_weights_of_other_points_are_refused_by_name(run, tmp_path, capsys):
     assert main(["train", "force", "--weights", str(tmp_path), "--data", str(run.data)]) == 2
     message = capsys.readouterr().err
     assert "'lattice'" in message and "tacgrasp data generate" in message
+
+
+def test_intervals_are_set_anew_and_nothing_else(run, brief, tmp_path):
+    from cltp.checkpoints.tac3d_llm import load_encoder, save_encoder
+
+    encoder, heads = random_model("tiny_grid")
+    fit_force(run, encoder, heads, CLEAN)
+    save_encoder(tmp_path / "encoder", encoder, heads)
+    encoder, heads = load_encoder(tmp_path / "encoder")  # rounded as they are stored
+    assert main(["train", "intervals", "--weights", str(tmp_path), "--data", str(run.data)]) == 0
+    again, set_anew = load_encoder(tmp_path / "encoder")
+    before, after = heads.state_dict(), set_anew.state_dict()
+    changed = {name for name in before if not torch.equal(before[name], after[name])}
+    assert changed == {"widening", "contradiction", "force.widening"}
+    for name, value in encoder.state_dict().items():
+        torch.testing.assert_close(again.state_dict()[name], value, rtol=0, atol=0)
+
+
+def test_intervals_need_contacts_that_nothing_was_learned_from(tmp_path, capsys):
+    from cltp.checkpoints.tac3d_llm import save_encoder
+
+    save_encoder(tmp_path / "encoder", *random_model("tiny_grid"))
+    write_contacts(tmp_path / "data", {Split.TRAIN: range(40)})
+    command = ["train", "intervals", "--weights", str(tmp_path), "--data", str(tmp_path / "data")]
+    assert main(command) == 2
+    assert "has 0 of them: tacgrasp data generate" in capsys.readouterr().err
