@@ -84,7 +84,7 @@ def train_intervals(
     held_out = int((contacts.column("split") == Split.VALIDATION.value).sum())
     if not heads.has_intervals or held_out < LEAST_CONTACTS:
         raise UsageError(
-            f"intervals are set for heads that have them, by {LEAST_CONTACTS} contacts of the split "
+            f"intervals are set for heads that have them, by {LEAST_CONTACTS} contacts of a split "
             f"'validation'; {data} has {held_out} of them: tacgrasp data generate --set full"
         )
     run = TrainingRun(data=data, out=weights, seed=seed, report=report)
