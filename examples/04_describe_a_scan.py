@@ -6,6 +6,7 @@ Without a file, one of a pressed ball is made. The same on the command line: tac
 """
 
 import sys
+import tempfile
 from pathlib import Path
 
 import numpy as np
@@ -30,7 +31,7 @@ def made_scan(path: Path) -> Path:
     return path
 
 
-path = Path(sys.argv[1]) if len(sys.argv) > 1 else made_scan(Path("scan.xyz"))
+path = Path(sys.argv[1]) if len(sys.argv) > 1 else made_scan(Path(tempfile.mkdtemp(), "scan.xyz"))
 cloud = read_cloud(path, SENSOR)
 for line in describe(cloud):
     print(line)

@@ -7,6 +7,7 @@ tacgrasp calibrate force --rig my_rig.yaml.
 """
 
 import datetime
+import tempfile
 from dataclasses import replace
 from pathlib import Path
 
@@ -32,9 +33,8 @@ loads = measure_loads(
 calibration = fit_force(
     loads, sensor=SENSOR, unit="my-pad", date=datetime.date.today(), source="the simulated world"
 )
-path = Path("force_my-pad.json")
-path.unlink(missing_ok=True)
+path = Path(tempfile.mkdtemp(), "force_my-pad.json")
 save_force_calibration(path, calibration)
 again = load_force_calibration(path)
 print(f"{again.factor:.3f} N for each nominal newton, ± {again.spread:.0%}, in {path}")
-print("in the rig's file, under hardware.sensor: force_calibration: force_my-pad.json")
+print(f"in the rig's file, under hardware.sensor: force_calibration: {path.name}")
