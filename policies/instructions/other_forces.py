@@ -8,12 +8,13 @@ from __future__ import annotations
 
 import re
 
+from policies.instructions.english import words
 from policies.instructions.quantities.force import MARK
 from policies.instructions.quantities.force_units import NUMBER, ONE_FORCE, UNIT
 from policies.instructions.quantities.masses import OBJECT
 
 _TAKES = (
-    r"(?:needs?|needed|takes?|took|wants?|wanted|requires?|required|gets?|got|calls? for|likes?|"
+    r"(?:needs?|needed|takes?|took|wants?|wanted|requires?|required|gets?|got|calls? for|likes?|(?:can|could|may|might|must|should|will|would) (?:\w+ )?(?:take|get|have|stand|bear|need)|"
     r"(?:is|was|were|are) (?:held|gripped|picked|done|fine|happy|good|set|run) (?:up )?(?:with|at))"
 )
 _OF_OBJECT = re.compile(
@@ -47,6 +48,30 @@ _LIFTED = re.compile(
     rf"\b(?:there is )?(?:no need|no reason|not (?:need|have)|not (?:necessary|needed|required|true that (?:it|you) (?:must|has|have))|need not)(?: (?!not\b|never\b)\w+){{0,4}}? (?:below|under|beneath|less than) {ONE_FORCE}"
 )
 """'There is no need to stay below 1 N': a bound that is lifted asks for nothing."""
+_THING = rf"(?:the |an? |my |our |your |his |her |that |this |those |these |all |every |each |any )?(?:(?:other|raw|fresh|green|next|neighbou?ring|big|small) )*(?P<object>{words.any_of('other_object')}|(?<=other )(?!(?:straw)?berr|fruit)\w+)\b(?: over there| (?:in|on|at) the \w+| next door| beside it)?"
+_BOUND = r"(?:(?:upper|lower|force|grip|hard|top|safe|allowed|maximum|minimum|max|min) )*(?:limits?|max(?:imum)?|min(?:imum)?|ceiling|cap|bound|threshold|force|target|set-?point)"
+_FIGURE = rf"(?:(?:of|at|is|was|are|to|about|around|only|just|at most|at least|no more than|not more than|up to|never more than|under|below|max|maximum|:|=) ?)*(?P<force>{ONE_FORCE}(?: ?(?:to|-|–|and) ?{ONE_FORCE})?)"
+_BOUND_OF = tuple(
+    re.compile(pattern)
+    for pattern in (
+        rf"\b{_BOUND} (?:on|for|of|with) {_THING},? {_FIGURE}",
+        rf"\b{_THING}(?:'s?)? {_BOUND},? {_FIGURE}",
+        rf"\b{_THING}(?: (?:always|only|usually))? (?:is|are|was|were|may|must|can|should|shall|will|has to|have to|gets?|needs?|takes?|wants?|requires?) (?:(?:not|never|be|get|have|take|exceed|only|always|held|gripped|picked|taken|squeezed|pressed|touched|handled|with|at|by) )*{_FIGURE.replace('at most', 'more than|over|above|at most')}",
+        rf"\b(?:on|for|with|as for) {_THING}[,:]? (?:(?:the|a|our|my|its) )?(?:{_BOUND} )?(?:(?:it|we|they|you|i|that|this) (?:\w+ly )?(?:is|are|use|take|takes|need|needs|want|go with|hold|give) )?(?:with )?{_FIGURE}",
+        rf"\b(?:we|they|i|people|you) (?:usually |always |normally |only )?give {_THING} {_FIGURE}",
+        rf"(?P<force>{ONE_FORCE})(?: (?:is|was|as))?(?: (?:the|a|our|an|my))?(?: {_BOUND})? (?:for|on|of|with) {_THING}",
+    )
+)
+"""'The limit on the egg is 3 N', 'for eggs at most 1 N', '1 N for the egg'."""
+_HELD = re.compile(
+    rf"\b{words.any_of('hold')}(?: up| on| onto| hold of)? (?:(?:the|a|an|this|that|my|our|your|these|those|another|some) )?(?:\w+ ){{0,2}}?(?P<object>{OBJECT})"
+)
+"""'Pick the ripe berry'."""
+_SAME = re.compile(
+    r"\b(?:like|as if|as though|as with|too|also|same|treat|use the|both|either|or)\b"
+)
+"""What gives the bound of another object to this one."""
+_CLAUSE = re.compile(r"[.,;:!?()](?!\d)|\s[-–—]+\s|—|\b(?:and|but|while|because|since|so|as)\b")
 _ALLOWED = re.compile(
     r"\b(?:you (?:may|can|could|might|are (?:allowed|free|welcome|permitted) to)|feel free to|"
     r"(?:it is|that is|it would be|i am) (?:perfectly |quite |absolutely )?(?:fine|ok(?:ay)?|al(?:l )?right|no problem|acceptable|happy)(?: with me| by me)?"
@@ -70,6 +95,7 @@ def without_other_forces(text: str) -> str:
             text = f"{text[:start]}{MARK}{text[end:]}"
     if part := _PART.search(text):
         text = f"{text[: part.start('force')]}{MARK}{text[part.end('force') :]}"
+    text = _without_bounds_of_others(text)
     for match in reversed(list(_OF_OBJECT.finditer(text))):
         rest = f"{text[: match.start()]} {text[match.end() :]}"
         named = (each[0] for each in re.finditer(OBJECT, rest))
@@ -78,6 +104,25 @@ def without_other_forces(text: str) -> str:
         is_another = is_named and others and _kind(match["object"]) not in others
         if is_another or _THAT_TOOK.match(match[0]):
             text = f"{text[: match.start('force')]}{MARK}{text[match.end('force') :]}"
+    return text
+
+
+def _without_bounds_of_others(text: str) -> str:
+    """A plain text with ``MARK`` for bounds of objects other than those that are to be held."""
+    if _SAME.search(text):
+        return text
+    for pattern in _BOUND_OF:
+        for match in reversed(list(pattern.finditer(text))):
+            rest = f"{text[: match.start()]}. {text[match.end() :]}"
+            held = {_kind(each["object"]) for each in _HELD.finditer(rest)}
+            clause = _CLAUSE.split(text[: match.start()])[-1] + match[0]
+            if _HELD.search(clause):
+                continue  # 'pick the berry out of the box with at most 1 N'
+            is_other = text[: match.start("object")].endswith("other ")
+            named = "other" if is_other else _kind(match["object"])
+            is_told_apart = is_other or any(not _ANY.fullmatch(name) for name in held)
+            if held and is_told_apart and named not in held:
+                text = f"{text[: match.start()]}{MARK}{text[match.end() :]}"
     return text
 
 

@@ -14,7 +14,7 @@ from policies.instructions.own_work import without_own_work
 from policies.instructions.quantities import Quantities, read_quantities
 from policies.instructions.quantities.numerals import in_digits
 from policies.instructions.refusal import refusal_of
-from policies.instructions.statements import without_statements
+from policies.instructions.statements import condition_of, without_statements
 from policies.instructions.unproved_least import needs_of_others, unproved_least
 
 
@@ -120,7 +120,7 @@ _WANTED = re.compile(
 )
 """'I would like to have this fruit', 'initiate pick sequence'."""
 _SHORT = re.compile(
-    r"^(?=.*(?:berry|fruit|usual|standard|default|next|again|another|one more))(?:(?:the|that|this|a|one|red|ripe|next|straw|berry|strawberry|fruit|please|up|now|ok|okay|alright|right|good|yo|hey|robot|go|and|then|usual|normal|standard|default|same|again|another|once|more|pick-?up|pick|grasp|lift)[ ,!.]*)+$"
+    r"^(?=.*(?:berry|fruit|usual|standard|default|next|again|another|one more))(?:(?:the|that|this|a|one|red|ripe|next|straw|berry|strawberry|fruit|please|up|now|ok|okay|alright|right|good|yo|hey|robot|go|and|then|usual|normal|standard|default|same|again|another|once|more|pick-?up|pick|grasp|lift)\b[ ,!.]*)+$"
 )
 
 
@@ -168,7 +168,17 @@ def _refusal(text: str, clean: str, numbers: Quantities) -> str:
     if not re.search(r"[^\W_]", clean):
         return "there are no words; say what to grasp, for example 'Pick the strawberry gently'"
     reason = refusal_of(numbers.rest, clean) or _no_english(clean) or _nothing_asked(numbers)
-    return reason or _unproved(clean, numbers)
+    return reason or _unproved(clean, numbers) or _conditional(clean)
+
+
+def _conditional(clean: str) -> str:
+    """Reason to refuse a request under a condition that can't be looked at; '' for none."""
+    words = condition_of(clean)
+    return (
+        f"{words!r} is a condition that a gripper can't check; say it once it is met"
+        if words
+        else ""
+    )
 
 
 _TAKE_IT = re.compile(

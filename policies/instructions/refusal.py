@@ -23,6 +23,17 @@ _ASKS = re.compile(
 )
 _OBJECT = r"(?: (?:it|this|that|the|them|these|those|him|her|my|a|an|some|every\w*|all|your|our|berry|strawberry|fruit|like|flat|down|up|apart|in|into|to)\b|(?=[.!,;]*$)| and\b| or\b)"
 _DESTROY_VERB = re.compile(rf"\b{words.any_of('destroy')}(?:n?ing|t?ing|p?ing)?\b{_OBJECT}")
+_A_BIT = re.compile(
+    r"squish (?:it|this|that|the \w+) (?:(?:just|only|like|maybe|ever so) )*(?:(?:an? )?(?:\w+ )?(?:bit|little|touch|tad|smidge\w*)\b(?! (?:flat|more|harder))|gently|softly|lightly|slightly|carefully)"
+)
+_DESTROY_WITH = re.compile(
+    r"(?:(?:please|now|just|robot|then|and|so|ok(?:ay)?|go ahead and|i (?:want|need|order|would like) you to|(?:can|could|will|would) you) )*"
+    r"(?P<order>(?:crush|squash|smash|mash|burst|bruise|destroy|flatten|pulp|mangle|wreck|ruin|split|puncture|pierce|break|crack) (?:it|this|that|them|the (?:\w+ )?\w+)(?: flat| up| completely)?) (?:with|at|using|by applying) "
+)
+_THREAT = re.compile(
+    r"\b(?:and|or) (?:you|i|we|it|they|the|my)\b|\b(?:fired|angry|cross|trouble|sorry|regret|pay)\b"
+)
+"""'Squash it with 2 N and I'll be cross' warns of it."""
 _MEANWHILE = re.compile(
     r"\b(?:while|whilst|busy|still|after|finish\w*|been|from|started|back to|halfway through|done|keep|kept|time|i am|we are)\s*$"
 )
@@ -47,6 +58,24 @@ _FORCE_NOUN = re.compile(r"\b(?:force|grip|pressure|squeeze|squeezing|tension)\b
 _CLEAR_OF = re.compile(
     r"(?:(?:keep|steer|stay)(?: well| far)? clear|(?:keep|stay|back)(?: well| far)? away|keep (?:off|your distance)|hands off) (?:of|from) (?:#|(?:that|this|those|these|the|any|such)"
     r"(?=\s*(?:$|[.,;!]))|(?:that|this|those|these|the|any|such)(?: \w+)? (?:figures?|values?|numbers?|forces?|levels?|regions?|zones?|range|marks?|limits?|thresholds?|areas?|territory|territories|settings?|pressures?|newtons?|readings?|regime)\b)"
+)
+_LEFT = re.compile(
+    r"(?:leav(?:e|ing)|(?:keep|stay|steer|back)(?: well| far)? (?:away|clear|off|back)(?: from| of)?|(?:keep )?(?:your )?hands off(?: of)?|"
+    r"(?:without|avoid|avoiding|no)(?: any| all)?(?: physical)? (?:touching|contact)(?: with| to)?|do not bother (?:with|about)) (?P<thing>(?:the|that|this|those|these|all|any|its|my|our|your|every|other|both)\b(?: (?!alone|be\b|and|but|or|pick|take|grab|hold)[\w'-]+){0,3})"
+)
+"""What is to be left alone."""
+_OF_THIS = re.compile(
+    r"(?:(?:the|that|this|those|these|all|any|my|our|your|its)(?: the| of)?(?: (?:straw ?)?berr(?:y|ies)| fruits?| one| object| thing| specimen| sample| it)?)(?:$| (?:where|there|until|for|as|on|in|out|behind))"
+)
+_ALIKE = re.compile(
+    r"^(?!.*\b(?:others?|neighbou?r\w*|rest)\b).*\b(?:berr(?:y|ies)|fruits?|ones?)$"
+)
+"""'The ripe berry' may be 'the berry'."""
+_BARE = re.compile(
+    r"(?:(?:the|that|a|an|my|our|your) )?(?:(?:straw ?)?berr(?:y|ies)|fruits?|one)|it|this"
+)
+_ASKED = re.compile(
+    rf"\b{words.any_of('hold')}(?: up| on| onto| hold of)? (?P<thing>(?:the|this|that|a|an|my|our|your|these) (?:\w+ ){{0,2}}?(?:(?:straw ?)?berr(?:y|ies)|fruits?|one|egg|tomato|object|sample|specimen|peg)\b|strawberr(?:y|ies)|this\b|it\b)"
 )
 _WEAK_STOP = re.compile(
     r"\b(?:wait|stay|leave it there|remain|pause|stand by|hold (?:it )?there)\b|^not move"
@@ -78,7 +107,10 @@ def refusal_of(text: str, whole: str = "") -> str:
     text = without_neutral(text)
     for find, reason in (
         (_harms, "it would harm a living being: {}"),
-        (_destroys, "it would destroy what is held: {}"),
+        (
+            lambda rest: _destroys(rest) or _destroys_with(whole),
+            "it would destroy what is held: {}",
+        ),
         (_releases, "it asks to let go: {}"),
         (_contradicts, "it contradicts itself: {}"),
         (_commands_the_arm, "it moves the arm and holds nothing: {}; 'tacgrasp jog' does that"),
@@ -166,11 +198,22 @@ def _destroys(text: str) -> str:
                 before,
             ):
                 continue
+            if _A_BIT.match(match.group() + behind) and MARK in text:
+                continue  # 'squish it a wee bit, like 1.1 N'
             if _MODAL.search(before) and not _ASKS.search(before):
                 continue
             if _MEANWHILE.search(before) and not _OURS.search(match.group() + behind):
                 continue  # 'while chopping the others'
             return match.group().strip()
+    return ""
+
+
+def _destroys_with(whole: str) -> str:
+    """An order to destroy with so much force, which else is read as what did harm; '' for none."""
+    for clause in _clauses(whole):
+        order = _DESTROY_WITH.match(clause)
+        if order and not _THREAT.search(whole):
+            return order["order"]
     return ""
 
 
@@ -214,6 +257,20 @@ def _stops_first(text: str) -> str:
     return text[: match.start("rest")].strip(" ,;:.!-–—…")
 
 
+def _is_of_other_thing(stop: str, behind: str, text: str) -> bool:
+    """Whether a stop is of another thing than the one that a text asks to hold."""
+    left = _LEFT.match(stop + behind)
+    if left is None or _OF_THIS.match(left["thing"]):
+        return False
+    rest = text.replace(left[0], ",")
+    held = (each for each in _ASKED.finditer(rest) if not is_denied(rest[: each.start()]))
+    is_alike = _ALIKE.search(left["thing"]) is not None
+    return any(
+        each["thing"] not in left["thing"] and not (is_alike and _BARE.fullmatch(each["thing"]))
+        for each in held
+    )
+
+
 def _stops(text: str) -> str:
     if found := _stops_first(text):
         return found
@@ -229,6 +286,8 @@ def _stops(text: str) -> str:
                 )
                 if is_after:
                     continue  # 'grip it and wait'
+                if _is_of_other_thing(match.group(), sentence[match.end() :], text):
+                    continue  # 'leave the leaf alone, pick the berry'
                 if _CLEAR_OF.match(sentence[match.start() :]) and MARK in text:
                     continue  # 'keep clear of that figure'
                 if (

@@ -46,8 +46,9 @@ _ENDS = re.compile(r"[.;!?](?!\d)\s*")
 _FORCE = re.compile(rf"{ONE_FORCE}(?:\s*(?:to|-|–|and|or)\s*{ONE_FORCE})?")
 _NOT_MEANT, _CONDITION, _GAUGE = map(_section, ("not_meant", "condition", "gauge"))
 _SAYS = _section("says_a_force")
+_IN_CHARGE = words.any_of("in_charge")
 _OTHERS_SAY = re.compile(
-    r"^(?:they|people|some(?:one|body|thing)|some (?:\w+ )?(?:people|folks|guys?|bloke|man|woman)|nobody|no one|everyone|everybody|who\w*|rumou?r|legend|word|[a-z]* ?bloke)\b|\b(?:internet|nobody|no one|(?:some|any)(?:one|body))\b"
+    rf"^(?:they|people|i (?:\w+ )?(?:heard|read|saw|overheard|dreamt)|some(?:one|body|thing(?! like))|some (?:\w+ )?(?:people|folks|guys?|bloke|man|woman)|nobody|no one|everyone|everybody|who\w*|rumou?r|legend|word|[a-z]* ?bloke)\b|\b(?:internet|wikipedia|chatgpt|google|reddit|youtube|siri|alexa|nobody|no one|(?:some|any)(?:one|body))\b|next door\b|\b(?:other|former|previous|old|ex-?) (?:\w+ )?(?:{_IN_CHARGE})\b|\b(?:of|at|on|in) (?:the |an)?(?:other|neighbou?ring) (?!hand\b)\w+"
 )
 _READS = re.compile(
     rf"{_GAUGE.pattern}(?: [\w'-]+){{0,4}}? (?![a-z]+ (?:needs|wants|requires|asks|calls)\b)(?!needs\b|wants\b|requires\b|asks\b|calls\b)(?:[a-z]+(?:s|ed|ing)|said|read|shown|stood|gave|had|was|went|swung|rose|fell)\b|\b(?:shows|showed|displays|displayed) (?:\w+ )?$"
@@ -57,12 +58,30 @@ _UNTIL = re.compile(
     r"\b(?:until|till?|before|way that|when|whenever|once|so that|such that|should|must|shall|want|wants|need|like|makes?|see|have|get|if|as soon as)\b"
 )
 _REFERRED = re.compile(
-    r"\b(?:of|than|to|at|with|from|twice|double|half|use|take|run|do|like|apply) that\b|\b(?:in|within|to|at) that (?:window|range|band|figure|value|number|force)\b|\b(?:scale|raise|lower|increase|reduce|cut) it\b|\btimes that\b|\bthe same here\b|\bhalf as much\b"
+    r"\b(?:of|off|than|to|at|with|from|twice|double|half|use|take|run|do|like|apply) that\b|\b(?:in|within|to|at) that (?:window|range|band|figure|value|number|force)\b|\b(?:scale|raise|lower|increase|reduce|cut) it\b|\btimes that\b|\bthe same here\b|\bhalf as much\b"
 )
 """What refers to a force that was stated before."""
 _CORRECTED = re.compile(rf"\b(?:{words.any_of('correction')}|sorry|wait|misread|make that)\b")
+_PAST = r"(?:yesterday(?:'s)?|(?<!for the )(?<!on the )last (?!chance\b|call\b|thing\b)[a-z]+(?:'s)?|(?:previous|former|old|earlier) (?:one|time|berry|setting|value|figure|number|order|wish|request|run|job|shift)(?:'s)?|previously|earlier|the other day|back then|formerly|before(?! (?:you|we|i|it|the|they|that|[a-z]+ing)\b)|this morning|used to)\b"
+_HABIT = r"(?:in the morning|usually|normally|by default|(?:the|our|my) (?:normal|usual|standard|default|factory|regular|nominal)(?: [a-z]+)? is|(?:is|would be) (?:the |our |my )?(?:normal|usual|standard|default|regular))\b"
+_LESS = r"(?:less|lower|softer|gentler|lighter|looser|weaker|easier|more|higher|harder|firmer|tighter|stronger)"
+_SINCE = re.compile(
+    rf"(?:\b(?:{_PAST}|{_HABIT})[^;?!]*?(?P<a>{ONE_FORCE})|(?P<b>{ONE_FORCE})(?:,? (?:that|it|which) (?:is|was)\b)?[^,;?!]*?\b(?:{_PAST}|{_HABIT}))(?:(?P<change>[^\d]*\b(?:{_LESS}|reduced?|gent(?:le|ly)|soft(?:ly)?|light(?:ly)?|careful(?:ly)?|firmly|hard|change|different\w*|otherwise|not (?:that|so) much)\b[^\d]*)|[\s.!]*)$"
+)
+"""'1.5 N is what I asked for yesterday; today I want less'."""
+_THAN_PAST = re.compile(
+    rf"\bthan (?:\w+ )?{_PAST}|(?<!\d )(?<!n )(?<!% )(?<!percent )\b{_LESS} than (?:that|this|it)\b"
+)
+_SAME = re.compile(
+    r"\b(?:same|again|also|too|as (?:before|yesterday|last time|usual)|like (?:yesterday|last time|before)|repeat|still)\b|#"
+)
+_AGREED = re.compile(
+    r"\b(?:keep|agreed|discussed|back to|stick|use (?:the|that|my|our|his|her)|(?:as|like) (?:i|we|you|he|she|they) (?:\w+ )?(?:said|told|asked|mentioned|wrote|did|used|had|wanted)|"
+    r"as (?:said|mentioned|told)|(?:said|told|asked)(?: \w+){0,2}? before)\b"
+)
+"""What wishes for a force of the past, where no change of it is asked for."""
 _OUTCOME = re.compile(
-    r"\b(?:slip|slid|drop|fall|fell|los[et]|holds it\b|held\b|bruis|crush|squash|crack|burst|broke|came out)|"
+    r"\b(?:slip|slid|drop|fall|fell|los[et]|holds it\b(?! (?:with|at|by)\b)|held\b|bruis|crush|squash|crack|burst|broke|came out)|"
     r"\b(?:below|under|(?:less|weaker|softer|gentler|looser|lower|smaller) than) (?:\w+ )?\d"
 )
 """What an earlier or a weaker grip leads to is read by ``quantities.outcomes``."""
@@ -76,23 +95,38 @@ _BEFORE_VERB = words.word_list("before_verb")
 _IN_FRONT = words.word_list("in_front")
 _ABLE = words.word_list("able")
 _ACTORS = words.word_list("actor")
+_DONE = re.compile(
+    r"(?:^|\b(?:and|so|now|because) )(?:(?:we|you|it|i)(?: (?:are|is|am|was|were|have been))(?: (?:now|currently|still|already|presently|just|gripping|holding|squeezing|pressing|pinching|sitting|it|this|the \w+))* (?:at|with)|"
+    r"(?:i|we|you|he|she|they)(?: (?:just|once|also|have|had|only|even))* (?:pressed|squeezed|gripped|grasped|pinched|held|clamped|lifted|used|tried|applied|grabbed)(?: (?:it|this|that|one|them|(?:the|a|my) \w+))?(?: (?:at|with))?|"
+    r"(?:i|we|he|she|they) (?:just |only |now )?(?:see|have|read|hear|heard|measure|feel|notice)|"
+    r"(?:i|he|she|they) (?:can|could) (?:easily |also )?(?:press|squeeze|grip|pinch|hold|clamp|lift)(?: (?:it|this|one|the \w+))? (?:at|with)) (?:about |around |roughly |only |just )*$"
+)
+"""'You are at 2 N', 'I pressed it with 2 N'."""
+_LATER = re.compile(
+    r"(?<!until )(?<!till )(?<!before )(?<!by )\b(?:tomorrow|next (?:time|week|month|year|season|shift)|in (?:the )?future)\b"
+)
+_THAT_ONE = re.compile(
+    r"\b(?:that|those|the other|the next|the others?)(?: (?:one|1|ones|berry|berries|fruit))?(?: (?:needs?|gets?|takes?|wants?|is|are|at|with|by|only))* $"
+)
+_THIS = re.compile(r"\b(?:this|these|here)\b")
+"""'This one needs 1 N, that one 2 N'."""
 _IS = r"(?:is|are|was|were|seems?|sounds?|looks?|feels?|will be|would be|might be|may be|could be|can be|has been|will|would|does|should|ought)"
 _PREDICATE = re.compile(rf"^(?: [\w'-]+){{0,6}}?,? (?P<is>{_IS})\b(?P<what>.*)")
 _STATED_AS = re.compile(
     r"\b(?:is|are|was|were|equals?|comes to|(?:is|are|was|were) (?:set|run|running|driven|fixed)(?: up)? (?:to|at|with))(?: (?:about|around|only|just|exactly))*\s*$"
 )
 _ACTS = re.compile(
-    r"^(?: (?:of )?(?:grip|force|squeeze|pressure))?(?: \w+ly)? (?!(?:is|as|us|plus|minus|times|less|works|suits|does|goes well|seconds|secs|upwards|onwards|downwards|towards|this|yes|thanks|always|across|perhaps|unless|has|was|its|strawberries|berries)\b)[a-z]{2,}s\b"
+    r"^(?: (?:of )?(?:grip|force|squeeze|pressure))?(?: \w+ly)? (?!(?:is|as|us|plus|minus|times|less|works|suits|suffices|does|goes well|seconds|secs|upwards|onwards|downwards|towards|this|yes|thanks|always|across|perhaps|unless|has|was|its|strawberries|berries)\b)[a-z]{2,}s\b"
 )
 """A force that does something: '1 N goes through the skin'."""
 _FINE = re.compile(rf" (?:{words.any_of('fine_force')})")
 _LEADS_TO = re.compile(
     r"\b(?:and|then) (?:the|a|an|my|our|it|this|that|you|we|they|i|there|everything|juice|she|he|bang|pop|off|out)\b(?: [\w'-]+){0,3}? "
-    r"(?:(?:is|are|goes|will|would|might|may|could|can)\b(?! (?:be )?(?:fine|held|good|ok\w*|safe|hold|stay|lift|go|do|then|see|try|start|take|done|happy|ready|grateful|pleased))|"
+    r"(?:(?:is|are|goes|will|would|might|may|could|can)\b(?! (?:be )?(?:fine|held|good|ok\w*|safe|hold|stay|lift|go|do|then|see|try|start|take|done|happy|ready|grateful|pleased)| (?:it|all|final|enough)[.! ]*$)|"
     r"(?!is\b|this\b|berries\b|strawberries\b|seconds\b|times\b|fingers\b)[a-z]{2,}(?:ts|ks|ps|ds|ls|es|rs|ns|ms|ys|gs)\b)"
 )
 _OWN = re.compile(
-    r"^(?:the |a |an |my |our |your |this |that )?(?:[\w'-]+ ){0,2}?(?:force|grip|target|set-?point|goal|value|number|answer|band|range|window|limit|minimum|maximum|min|max|end|ends|least|most|floor|ceiling|wish|squeeze|pressure|grasp|setting|figure|hold|load|recipe|spec\w*|protocol|order|job|instruction|plan|budget|nominal|choice|kpi|f|f_\w+)(?: (?:is|are|of|at|to|now|today|here|for \w+(?: \w+)?|on \w+(?: \w+)?|should be|will be|must be|shall be|about|around|=))*\s*[:=]?\s*(?:between |from |at |about |around |exactly |precisely |a |only |just |to )*$"
+    r"^(?:the |a |an |my |our |your |this |that )?(?:[\w'-]+ ){0,2}?(?:force|grip|target|set-?point|goal|value|number|answer|band|range|window|limit|minimum|maximum|min|max|end|ends|least|most|floor|ceiling|wish|ours|mine|yours|squeeze|pressure|grasp|setting|figure|hold|load|recipe|spec\w*|protocol|rule|law|norm|order|job|instruction|plan|budget|nominal|choice|kpi|f|f_\w+)(?: (?:is|are|of|at|to|now|today|here|for \w+(?: \w+)?|on \w+(?: \w+)?|should be|will be|must be|shall be|about|around|=))*\s*[:=]?\s*(?:between |from |at |about |around |exactly |precisely |a |only |just |to )*$"
 )
 """What a clause is about that states the force to use."""
 _NAMED = re.compile(
@@ -109,7 +143,7 @@ _QUOTED = re.compile(
 )
 _NEEDS = re.compile(r"(?<!^)\b(?:needs?|needed|takes?|requires?|required)\b")
 _OF_OURS = re.compile(
-    rf"^(?:[\w'-]+ ){{0,4}}?(?:this|that|these|those|it|they|you|i|we|they|one|ones|{OBJECT}|grip|grasp|force|job|task|calibration|recipe|customer\w*|client|boss|test|trial|protocol|spec\w*|[a-z]+ing|(?:work ?)?piece|product|object|sample|specimen|thing|load|lift|skin|variety|batch|set-?point|berry\w*)\b"
+    rf"^(?:[\w'-]+ ){{0,4}}?(?:this|that|these|those|it|they|you|i|we|they|one|ones|{OBJECT}|grip|grasp|force|job|task|calibration|recipe|{_IN_CHARGE}|test|trial|protocol|spec\w*|[a-z]+ing|(?:work ?)?piece|product|object|sample|specimen|thing|load|lift|skin|variety|batch|set-?point|berry\w*)\b"
 )
 """Whose need is a wish."""
 _PLAIN = words.word_list("plain_request") | words.word_list("plain_fragment")
@@ -125,6 +159,8 @@ def without_statements(text: str) -> Statements:
         rest = _QUOTED.sub(MARK, text)
         return Statements(rest=rest, words=quoted[0], is_elsewhere=_requests(rest))
     spans = [(start, end) for start, end in _clauses(text) if _FORCE.search(text, start, end)]
+    if past := _past_force(text):
+        return Statements(rest=text, words=past, is_elsewhere=False)
     if found := _NOT_MEANT.search(text) or _CONDITION.search(text):
         stated, after = _said_with(found, spans, text)
         if found.re is _CONDITION or not stated or not after or len(stated + after) < len(spans):
@@ -142,6 +178,34 @@ def without_statements(text: str) -> Statements:
         words=clauses[0] if clauses else "",
         is_elsewhere=all(map(_GAUGE.search, clauses)) and _requests(rest),
     )
+
+
+def condition_of(text: str) -> str:
+    """The words of a condition that a gripper can't look at and a request stands under; '' for none."""
+    for sentence, _ in sentences(text):
+        for found in _CONDITION.finditer(sentence):
+            before = sentence[: found.start()].strip(" ,;:-–—")
+            clause = _CLAUSE.split(before)[-1]
+            what = sentence[found.start() :].split(",")[0]
+            if _FORCE.search(what) or what.startswith("as soon as") or _SUPPOSED.search(before):
+                continue
+            if _LEAD.fullmatch(before) or _requests(clause):
+                return what
+    return ""
+
+
+def _past_force(text: str) -> str:
+    """The words of a force of the past in whose place less or more is asked for; '' for none."""
+    text = _THAN_PAST.sub("less", text)
+    found = _SINCE.search(text)
+    is_one = len(_FORCE.findall(text)) == 1
+    if found is None or not is_one or _REFERRED.search(text) or _SAME.search(text):
+        return ""
+    if not found["change"] and (_AGREED.search(text) or not re.search(_PAST, found[0])):
+        return ""
+    at = found.start("a" if found["a"] else "b")
+    clause = next(text[slice(*span)] for span in _clauses(text) if span[0] <= at <= span[1])
+    return "" if _requests(clause) else found[0].strip(" ,.;:")
 
 
 def _said_with(
@@ -180,7 +244,9 @@ def _asks(clause: str, sentence: str) -> bool:
     before, after = clause[: force.start()], clause[force.end() :]
     if _READS.search(before) and not _UNTIL.search(before):
         return False
-    if _LEADS_TO.search(after):
+    if _LATER.search(clause) or (_THAT_ONE.search(before) and _THIS.search(sentence)):
+        return False
+    if _DONE.search(before) or _LEADS_TO.search(after):
         return False
     if _requests(clause):
         return True
@@ -226,15 +292,26 @@ def _is_asked(tokens: list[str], i: int) -> bool:
     if before == "to":
         return at == 0 or tokens[at - 1] not in _ABLE
     first = next((token for token in tokens if token not in _JOINING), "")
-    return before in _BEFORE_VERB or (first in _IN_FRONT and before not in _ARTICLES)
+    return before in _BEFORE_VERB or (
+        first in _IN_FRONT and before not in _ARTICLES | _SOMEBODY_ELSE
+    )
 
 
+_LEAD = re.compile(
+    r"(?:(?:and|but|so|then|only|please|now|ok|okay|well|robot|hey|hi|hello|today|even)[ ,]*)*"
+)
+"""What may stand before a condition with which a sentence begins."""
+_SUPPOSED = re.compile(
+    r"\b(?:it|they|this|that|which|he|she) (?:only |also |even |just )?(?!always)[a-z]{2,}s$|\b(?:what (?:would |will )?happens?|wonder|grateful|glad|happy|lovely|nice|great|appreciate|better|best|like it|love it|pleased|kind|cool|even|as|see|check|tell me|know|care|mind|no matter|never mind|worry|bruises?|breaks?|bursts?|slips?|falls?|or|like|sure)$"
+)
+"""Before 'if': no condition of the request."""
 _REASON = re.compile(
     r"\b(?:because|since|cos|so|as|(?:that|it|this|they|i|we) (?:is|are|am|have|has|know|measured|need|want|like))\b"
 )
 """What a wish has behind it: '1 N, because it is wet'."""
 _JOINING = words.word_list("joining")
 _ARTICLES = words.word_list("article")
+_SOMEBODY_ELSE = words.word_list("somebody_else")
 
 
 def _is_plain(text: str) -> bool:

@@ -26,12 +26,12 @@ _CLAUSE = re.compile(
 _PLAIN = words.word_list("plain_request")
 _OURS = r"(?:(?:straw ?)?berr|fruit|object|thing|force|grip|squeeze|pressure|strength|hand|finger|sample|specimen|task|job|target|minimum|band|range|one\b|egg|tomato|peg)"
 """How nouns begin that a request may have for its subject."""
-_CLIENTS = r"(?:customer|client|boss|buyer|supervisor|test|trial|experiment|check|protocol|recipe|contract|spec|rule|item|piece|product|workpiece|part\b|it\b)"
+_CLIENTS = rf"(?:{words.any_of('in_charge')}\b|test|trial|experiment|check|protocol|recipe|contract|spec|rule|item|piece|product|workpiece|part\b|it\b)"
 """The same of nouns that may want a force."""
 _OTHERS = re.compile(
     r"^(?:(?:and|so|then|well|because|since|but) )*(?!(?:and|so|well|because|since|but|please|just|now|then|i|we|you|it|this|that|these|they|what|use|hold|grip|keep|apply|take|make|let|go|give|get|have|there)\b)"
     r"(?:(?:the|my|our|your|an?|most|all|other|some|old|previous|any) ){0,3}"
-    rf"(?!{_OURS}|(?:the|my|our|your|an?|answer|kpi)\b)"
+    rf"(?!{_OURS}|(?:the|my|our|your|an?|answer|kpi)\b|(?:\w+ )?{words.any_of('in_charge')} (?:wants|needs|requires|asks for|insists on|would like|demands|orders|specifies)\b)"
     r"[a-z']+(?: robots?| gripper| operator)?(?: \w+ly)? (?:uses?|used|needs?|needed|wants?|wanted|takes?|took|insists?(?: on)?|says?|said|say|has|had|would|are|is|was|were|can|gets?|got|"
     r"exerts?|squeezes?|holds?|grips?|picks?|requires?|required|recommends?)\b"
 )

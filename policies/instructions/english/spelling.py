@@ -90,6 +90,10 @@ _KNOWN = (
         [
             "form",
             "farm",
+            "farmer",
+            "former",
+            "squish",
+            "squishy",
             "film",
             "mast",
             "moist",

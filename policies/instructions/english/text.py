@@ -51,12 +51,14 @@ _CONTRACTIONS = (
     (r"\bye\b", "you"),
     (r"\b(?:dinnae|dinna)\b", "do not"),
     (r"\bmor\b", "more"),
+    (r"\bsub[- ]?newtons?\b", "below 1 newton"),
 )  # fmt: skip
 
 _TYPED = (
     (r"(?<=\d)[·٫](?=\d)", "."),  # decimal points of other keyboards
     (r"(?<=[a-z]),(?=\.?\d)", ", "),
     (r"\s*(?:!=|≠|<>)\s*", " not "),
+    (r"\s&\s", " and "),
     (r"(?:^|(?<=\s))!\s*(?=\.?\d)", "not "),
     (r"(?<=\d)\s*\[\s*([a-zµ]{1,12})\s*\]", r" \1"),
     (r"(?<!\w)(['\"“”„«»*_]+)(\.?\d[^'\"“”„«»*]{0,20}?)['\"“”„«»*_]+(?!\w)", r"\2"),

@@ -37,6 +37,7 @@ _PLAIN: tuple[tuple[str, str], ...] = (
     (rf"\b(?:can|could|will|would|do) not you\b[^.;,#\d]*?\b{_LESS} {_ONE}", r"at most \g<one>"),
     (rf"\b(?:stay|steer|keep|remain)\w* (?:well |far |right )?(?:away|clear|off|out)(?: (?:from|of))?(?: the)? {_ONE}", r"at most \g<one>"),
     (rf"{_ONE}{_WHAT} (?:should|must|is|ought to|has)(?: to)? (?:best |better )?(?:be )?(?:avoided|excluded|shunned|off the table)\b", r"at most \g<one>"),
+    (rf"\b(prefer|rather have|would take) {_ONE} (?:to|over|than) {NUMBER}\s*(?:{UNIT})\b", r"\1 \g<one>"),
     (rf"\b(?:except|other than|apart from|all but|excluding)(?: for)? {_ONE}", r"at most \g<one>"),
     (rf"({_DENIED}{_THERE} ?){_ONE}{_OR_MORE}", r"\1more than \g<one>"),
     (rf"({_DENIED}{_THERE} ?){_ONE}{_OR_LESS}", r"\1less than \g<one>"),
@@ -70,8 +71,13 @@ _FROM = re.compile(
 """'Under from 1 N', as other languages have it."""
 
 
+_NOT_MORE = re.compile(r"\b(not (?:\w+ )?(?:more|less|higher|harder|bigger)) (?=(?:about )?\.?\d)")
+"""'Not more 1 N please'."""
+
+
 def with_plain_bounds(text: str) -> str:
     """Write each bound of a plain text, its numbers in digits, with its words before its force."""
+    text = _NOT_MORE.sub(r"\1 than ", text)
     text = _FROM.sub(r"\1 ", _THAN.sub(r"\1 than", text))
     for pattern, plainly in _PLAIN:
         text = re.sub(pattern, plainly, text)

@@ -17,7 +17,7 @@ _DROPPED = re.compile(
 )
 _NOT_WITH = re.compile(
     rf"\b(?<!why )(?<!why do )(?:{NO_CASE}|(?<!if )not(?! you (?:just |please )?(?:use|hold|keep|grip|grasp|take|try|go|apply)\b)|never|no|avoid\w*|refrain from)"
-    r"(?: (?:ever|true|correct|want|like|dare|you|to|hold|keep|grip|grasp|pinch|pick|take|lift|set|go|apply|use|using|it|this|that|the|"
+    r"(?: (?:(?:crush|squash|squish|smash|bruise|burst|damage|hurt|break|mark|dent|destroy)(?= (?:it|this|that|the|them)\b)|ever|true|correct|want|like|dare|you|to|hold|keep|grip|grasp|pinch|pick|take|lift|set|go|apply|use|using|it|this|that|the|"
     r"(?:straw ?)?berry|fruit|one|at|with|a|force|of|for|exactly|about|around|in|within|between|from|(?<=\bthe )\w+|(?<=\bmy )\w+|(?<=\bthis )\w+|(?<=\bthat )\w+))*\s*$"
 )
 """Before a force: it is not to be used."""

@@ -7,7 +7,7 @@ import re
 from policies.instructions.quantities.force import Kind
 
 _FIRMER = r"(?:harder|firmer|tighter|stronger|heavier|larger|bigger|greater|higher)"
-_SOFTER = r"(?:softer|gentler|lighter|weaker|looser|lower|smaller|fewer)"
+_SOFTER = r"(?:softer|gentler|lighter|weaker|looser|lower|lesser|smaller|small|low|fewer)"
 _ABOVE = re.compile(
     rf"\b(?:over|above|beyond|past|exceed(?:s|ed|ing)?|surpass\w*|in excess of|north of|upwards? of|"
     rf"pass(?:es|ing)?|top(?:s|ping)?|cross(?:es|ing)?|overshoot\w*|overstep\w*|(?:any |a \w+ |\w+ )?more(?: \w+)? than(?: (?:you|i|we) (?:would|do|did)(?: (?:hold|press|squeeze|use|with|at|for|on))*)?|{_FIRMER}(?: \w+)? than(?: you would)?(?: with| at)?)"
@@ -19,12 +19,12 @@ _BELOW = re.compile(
 )
 _MOST = re.compile(
     r"(?:\b(?:less|lower|smaller) than or equal to|\b(?:at|under|below) or (?:under|below|at)|\b(?:ends|tops out|finish\w*|finishes)(?: \w+){0,3} (?:at|before)|\bstop\w*(?: \w+){0,3} before|(?<!not )(?<!never )\b(?:stop|quit|halt|cease|leave off|cut (?:out|off)|finish|pull up|abort|bail(?: out)?|trip|fault|e-?stop|shut (?:down|off)|give up|let go|back off|alarm)(?:s|p?p?ing|ed)?(?: \w+ing)?(?: (?:it|in|down|up|on it|on this|dead|short|the (?:berry|strawberry|fruit|fingers|jaws|gripper)))? at|"
-    r"\bat (?:the )?(?:very |absolute )?most|\batmost|\bhard stop(?: at| of| is)?|\bup to|\b(?:as (?:hard|much|high|firm|far) as|no further than)|"
+    r"\bat (?:the )?(?:very |absolute )?most|\batmost|\b(?:allowed|allowable|permitted|permissible|admissible|tolerable|tolerated)(?: (?:only|just|force|forces|grip|load|value|level|is|are|of))*:?|\b(?:allows?|permits?|tolerates?)(?: us| me| you| only| just)*|\bthe (?:safe|low|lower|soft|gentle|near) side of|\bhard stop(?: at| of| is)?|\bup to|\b(?:as (?:hard|much|high|firm|far) as|no further than)|"
     r"\bmax(?:imum|imal(?:ly)?|ed)?\.?(?: \w+){0,3}?(?: of| is| at| to|:| =|=)?|"
     r"\blimit(?:s|ed|ing)?(?: (?!not\b|never\b)\w+){0,3}?(?: to| of| at| is|:| =|=)?|"
     r"(?<!bottle )(?<!screw )(?<!jar )(?<!pen )(?<!tube )(?<!vial )\bcap(?:s|ped|ping)?(?: \w+){0,3}?(?: at| to| of| is|:| =|=)?|\bceiling(?: of| is| at|:| =|=)?|"
     r"\b(?:alarm|trip(?:ping)?|fault|safety|abort|stop|shut-?down|e-?stop|emergency|overload|warning)s?[ -](?:threshold|level|point|limit|value|mark|line)(?: of| is| at| to|:| =|=)?|\b(?:red|danger) ?line(?: of| is| at|:| =|=)?|"
-    r"\b(?:upper|top) (?:\w+ )?(?:limit|bound|end)(?: \w+){0,2}?(?: of| is| at|:| =|=)?|\bpeak(?: \w+){0,2}?(?: of| is| at|:| =|=)?|"
+    r"\b(?:upper|top) (?:\w+ )?(?:limit|bound|end)(?: \w+){0,2}?(?: of| is| at|:| =|=)?|\bpeaks?(?: \w+){0,2}?(?: of| is| at|:| =|=)?|"
     r"\b(?:bruis\w*|ruptur\w*|fractur\w*|fail\w*|break\w*|burst\w*|crush\w*|damag\w*|yield\w*|crack\w*|tear\w*|squash\w*|collaps\w*) (?:threshold|onset|force|load|limit|point|level|pressure|strength|mark)s?(?: (?:is|of|at|about))*\s*[:=]?|\b(?:warning|danger|caution)\s*[:=]|"
     r"\bkeep(?:s|ing)?(?: \w+){0,3} from (?:reach|hitt|gett|ris|go|climb)ing(?: (?:up |all the way )?to)?|\b(?:can not|could not|will not|never) (?:handle|take|stand|bear|withstand|tolerate|survive|endure)|"
     r"<=|≤|=<|\bnot to exceed|\bat (?:the )?worst|\bworst case|\bwithin|\bbounded (?:above )?(?:by|at)|\b(?:not|never)(?: let it)? (?:go|push|squeeze|press)(?: \w{1,4})?|\b(?:top|max|peak|level)(?:p?ing|s|p?ed)?(?: \w+)?(?: out)? at|\b(?:restrict|confin|constrain|throttl)\w*(?: \w+){0,3}? (?:to|at|by)|\b(?:may|can|could|might)(?: only| just| at most)? (?:be (?:raised|increased)|rise|go|climb|increase|grow|build|reach|extend)(?: up)?(?: to)?|\b(?:not|never|without|avoid\w*)(?: (?:ever|let|the|force|it|grip|even|quite|to|be|going|you|allow\w*|pressure|have|want|go|come|rise)){0,5} (?:reach(?:es|ing)?|hit(?:s|ting)?|get(?:s|ting)? (?:up )?to|attain\w*|ris(?:e|es|ing) to|climb\w* to|go(?:ing|es)? (?:up |all the way )?to)|\b(?:budget|allowance)(?: of| is|:)?|\bno more than|\bnowhere near|\b(?:allow(?:ed)?|permit(?:ted)?)(?: is (?:until|till|up to))?(?: (?:up )?to(?: (?:use|reach|rise to|climb to|go(?: up)? to))?)?|"
@@ -53,15 +53,15 @@ _UNWANTED = (
 """What is said of a force that is too large."""
 _STRICT = r"(?:(?:absolute|hard|strict|firm|safety|upper|very|fixed|final|outer|allowed|permitted|allowable) )*"
 _MOST_AFTER = re.compile(
-    rf"\s*(?:-|–|,|:)?\s*(?:(?:(?:at|as|is|being) )?(?:an? |the |my |our )?{_STRICT}(?:max(?:imum|imal)?|(?:upper )?(?:limit|ceiling|cap)(?! is\b))\b(?!\.?(?: (?:grip |clamp\w* |holding )?force)?(?: of| is|:| ?=)? ?\d)|tops\b|at (?:the )?(?:very |absolute )?most\b|"
+    rf"\s*(?:-|–|,|:)?\s*(?:(?:(?:at|as|is|being) )?(?:an? |the |my |our |its )?{_STRICT}(?:max(?:imum|imal)?|peaks?|(?:upper )?(?:limit|ceiling|cap)(?! is\b))\b(?!\.?(?: (?:grip |clamp\w* |holding )?force)?(?: of| is|:| ?=)? ?\d)|tops\b|at (?:the )?(?:very |absolute )?most\b|"
     r"(?:or|and) (?:a (?:little|bit|touch) |slightly |even )?(?:less|below|under|lower|lighter|softer|gentler|smaller)\b(?! (?:no|any|all)\b)|(?: [a-z]+){1,3} at (?:the )?(?:very |absolute )?most\b|"
     r"[;,.]? ?(?:and )?(?:do not|never|not|but not) (?:\w+ ){0,2}(?:past|over|above|beyond|exceed|higher than) (?:it|that|this)\b|"
     r"(?:,? ?(?:and|but|yet|though) )?(?:absolutely |(?:under|in|on|by|at) )?(?:no|not|never|without)(?! need)(?: \w+){0,2} (?:more|higher|harder|above|over|further|beyond|past)\b"
     r"(?!,? (?:and |or )?(?:no|not|nor|never)(?: \w+)? less)(?! (?:no|not) less)|"
-    r"(?:is|as|being)(?: (?!lower)\w+){0,3} (?:limit|max(?:imum)?|ceiling|cap|most|end of the line|last word)\b|(?:limit|ceiling|cap)\b(?!(?: force)?(?: of| is|:| ?=)? ?\d)|"
+    r"(?:is|as|being|=)(?: (?!lower)\w+){0,3} (?:limit|max(?:imum)?|ceiling|cap|most|end of the line|last word)\b|(?:limit|ceiling|cap)\b(?!(?: force)?(?: of| is|:| ?=)? ?\d)|"
     r"(?:(?:an?|the|my|your|as|is|as an?|as the) )*upper (?:\w+ )?(?:bound|limit|end)\b|"
     rf"(?:,? ?(?:and|but) (?:it|that|this) )?(?:{_BEEN} )?(?:already |way |far |just |clearly |evidently )*(?:(?:you (?:are|have|would be|were) )?(?:going|gone|squeezing|pressing|gripping) (?:way |much |far )?)?too (?:much|far|hard|firm|high|strong|tight|rough|heavy|great)|and under\b(?! (?:no|any|all)\b)|"
-    rf"at the (?:outside|utmost|very top)\b|to (?:play|work) with\b|(?:is|as) (?:the|my|our|a) (?:\w+ )?(?:roof|lid|wall|red line|end of it)\b|{_BEEN} (?:already |strictly |absolutely |still |simply )*{_UNWANTED}|"
+    rf"at the (?:outside|utmost|very top)\b|(?:is )?(?:the )?(?:(?:most|maximum) )?(?<!is )(?:allowed|allowable|permitted|permissible|admissible|tolerated)\b|is (?:about |just |only )?as (?:high|far|hard|much|firm|tight|strong) as (?:i|you|we|it|they|the \w+|this)\b|to (?:play|work) with\b|(?:is|as) (?:the|my|our|a) (?:\w+ )?(?:roof|lid|wall|red line|end of it)\b|{_BEEN} (?:already |strictly |absolutely |still |simply )*{_UNWANTED}|"
     rf"(?<!, )(?:already |surely |will |would |can |could |may |might |has |had |have )*{_HARMS}(?= (?:it|the|this|that|my|our|one|some|berr\w+|strawberr\w+|fruits?|a|easily|already|them)\b|\s*(?:$|[.;!,]))|"
     rf"(?:will|would|is where \w+|is when \w+) (?:already |surely )?{_HARMS}|(?:it|they|the (?:(?:last|previous|first|other) )?\w+) (?:already |surely )?{_HARMS})"
     + _OTHERS
@@ -94,7 +94,8 @@ _CONDITION = re.compile(
     r"\b(?:if|unless|in case|only when|as needed|where needed|when(?:ever)? (?:it|the \w+) (?:slips?|slides?|starts?|moves?|needs?))\b"
 )
 _ONLY_IF = re.compile(
-    r"\s*,?\s*(?:(?:but )?only )?(?:if|when|where|as|unless) (?:really |absolutely |strictly )?(?:needed|necessary|required|need be|you must|you have to|it (?:slips|slides|needs)\b|unavoidable)"
+    r"\s*,?\s*(?:(?:but )?only )?(?:if|when|where|as|unless) (?:really |absolutely |strictly )?(?:needed|necessary|required|need be|you must|you have to|(?:it|the \w+) (?:slips|slides|needs|moves|(?:starts?|begins?) (?:to )?(?:slip|slid|mov|fall|drop)\w*)|unavoidable)\b|"
+    r"\s*,? (?:only )?in case (?:it (?:slips|slides|moves|starts)|of (?:an? )?(?:slip|need|emergency))"
 )
 _RISES = re.compile(
     r"\b(?:go|get|rise|raise|increase|up|ramp|climb|bring|turn|crank|squeeze|more)\b[^.;,]{0,25}\bto(?: (?:about|around|roughly))?\s*$"
@@ -132,11 +133,14 @@ _HARMS_BEYOND = re.compile(
 """'Above that it bruises'."""
 _LIMIT_AFTER = re.compile(
     r"\s*[.;(:!,–—-]*\s*(?:(?:and|but) )?(?:(?:that|this|which|it)(?: is|'s| has to be| must be) (?:really |already |also )?(?:the|my|our|your|a|an)? ?(?:very |absolute |hard |upper |strict )*"
-    r"(?:max(?:imum|imal)?|limit|ceiling|cap|most(?: (?:i|we|you|it|that)\b[^.;#\d]*)?|upper (?:limit|bound|end))|(?:hard |absolute |upper |strict )*(?:limit|max(?:imum)?|ceiling)(?=\s*[.;)!]|\s*$)|"
+    r"(?:max(?:imum|imal)?|limit|ceiling|cap|most(?: (?:i|we|you|it|that)\b[^.;#\d]*)?|upper (?:limit|bound|end))|(?:hard |absolute |upper |strict )*(?:limit|max(?:imum)?|ceiling|peak)(?=\s*[.;)!]|\s*$)|"
     r"(?:absolutely |definitely |and |but |really )*(?:no|never|not|nothing) (?:more|higher|harder|further)(?=\s*[.;)!]|\s*$)|(?:that|this|which|it) (?:must|may|should|can|shall|is) (?:not|never) (?:to )?be (?:exceeded|passed|surpassed|crossed)|"
     r"(?:please |just )*(?:go|push|press|squeeze|rise|get) no (?:higher|further|harder|more|tighter|firmer))\b(?! (?:than|of) \d)(?!\s*(?:is|of|:|=|at|to)?\s*\.?\d)"
 )
 """'1 N. That is the maximum.' '1 N; absolutely no more'."""
+_ONLY_ALLOWED = re.compile(
+    r"\b(?:only|just|merely|a mere) # (?:is|are) (?:allowed|permitted|tolerated|acceptable)\b"
+)
 _FROM = re.compile(r"\bfrom\s*$")
 _DOWN = re.compile(r"\s*(?:and |or )?(?:on )?down(?:wards?)?\b(?! (?:to|by)\b)")
 """'From 2 N down'."""
@@ -227,6 +231,8 @@ def relation(left: str, right: str) -> tuple[Kind, int, int]:
         return "most", len(left), 0
     if match := _LOWERED.search(left):
         return "most", match.start(), 0
+    if match := _ONLY_ALLOWED.search(f"{left.rstrip()} #{right}"):
+        return "most", min(match.start(), len(left)), 0
     if (cut := _end_of_conditional_most(left, right)) is not None:
         return "most", len(left), cut
     if match := _STOPS_SHORT.search(left):

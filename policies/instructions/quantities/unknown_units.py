@@ -29,6 +29,11 @@ _VALUED = re.compile(
     rf"(?:{BEFORE_VALUE}|\b(?:hold|grip|squeeze|press|grasp)(?: it)? (?:at|to) ){_AFTER}"
 )
 _ALONE = re.compile(rf"^{_AFTER}(?=[ .!]*$)")
+_NONE = re.compile(
+    rf"(?:^|{BEFORE_BOUND}|{BEFORE_VALUE}|\b(?:hold|grip|squeeze|press|grasp|pinch|clamp|push)(?: it| this| the \w+)?(?: (?:at|to))? |\b(?:between|from(?! [\d.]+ ?m\b)) )(?:{NUMBER} ?(?:-|–|to|and) ?)?(?P<number>{NUMBER})\s*-?\s*"
+    r"(?P<unit>m/s(?:ec)?[²2]?|m|amps?|stones?|bits?|bananas?|apples|[kmg]?hz|hertz|rpm|°?[cf]|x|notch(?:es)?|ticks?|turns?)(?=\s*(?:$|[.,;:!?)]|(?:of (?:grip |holding )?(?:force|grip|pressure|squeeze)|force|please|on (?:the|it|this|that)|onto|to (?:the|it|this|that)|and|but|thanks)\b))"
+)
+"""Units that count or measure something else elsewhere ('0.2 m above'), where a force would stand."""
 _DERIVED = re.compile(
     rf"(?P<number>{NUMBER})\s*(?P<unit>(?:{UNIT})\s?(?:[·⋅*-]\s?|\s)?(?:m|cm|mm|met(?:er|re)s?)\b|[cmk]?nm\b|"
     rf"(?:{UNIT})\s?(?:/|per )\s?(?:s|sec(?:ond)?|[cm]?m|met(?:er|re))\b)"
@@ -124,7 +129,7 @@ def unknown_force(text: str) -> str:
         return f"{match[0].strip()!r} has a sign and a direction; say 'half as hard' or '20 % less'"
     if match := _FORMULA.search(text):
         return f"{match[0]!r} is a formula; name the force as one number, as in '1.5 N'"
-    if match := _DERIVED.search(text):
+    if match := _DERIVED.search(text) or _NONE.search(text):
         return _reason(match)
     for pattern in (_ALONE, _BOUNDED) if _has_force(text) else (_ALONE, _BOUNDED, _VALUED):
         for match in pattern.finditer(text):

@@ -125,6 +125,26 @@ def test_a_range_that_is_only_denied_is_refused(text):
 @pytest.mark.parametrize(
     "text",
     [
+        "hold it at 1 N peak",
+        "1 N peak force",
+        "1 N (peak)",
+        "only 1 N is allowed",
+        "permitted force 1 N",
+        "not more 1 N please",
+        "must not exceed 1 N",
+        "1 N is as high as I'd go",
+        "stay on the safe side of 1 N",
+        "1 N in case it slips",
+    ],
+)
+def test_a_most_in_other_words_is_one(text):
+    assert forces(text) == [("most", 1.0)]
+    assert read_contract(text, terms(), {}).refused == ""
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
         "bring it up to 1 N",
         "raise the force to 1 N",
         "you may hold it with 1 N",

@@ -67,10 +67,34 @@ def test_what_is_denied_to_a_person_bounds():
 
 @pytest.mark.parametrize(
     "text",
-    ["Grasp the strawberry. The egg needs 3 N.", "pick the berry, not the egg which needs 4 N"],
+    [
+        "Grasp the strawberry. The egg needs 3 N.",
+        "pick the berry, not the egg which needs 4 N",
+        "pick the berry; the limit on the egg is 1 N",
+        "for eggs the limit is 1 N. pick the berry",
+        "pick the berry; the egg must not get more than 1 N",
+        "the other robot's limit is 1 N, pick the berry",
+        "the other one needs 3 N, pick this one",
+    ],
 )
 def test_the_force_of_another_object_is_not_this_ones(text):
     assert band_of(text) == (USUAL.force_n, USUAL.limit_n)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "the limit on the egg is 1 N",
+        "pick the egg, the limit on the egg is 1 N",
+        "pick this one, the limit on the egg is 1 N",
+        "the limit for fruit is 1 N, pick the berry",
+        "pick the berry out of the box with at most 1 N",
+        "pick the berry for the box, at most 1 N",
+        "treat the berry like an egg; the limit on the egg is 1 N",
+    ],
+)
+def test_a_bound_that_may_be_of_this_object_counts(text):
+    assert forces(text) == [("most", 1.0)]
 
 
 @pytest.mark.parametrize(

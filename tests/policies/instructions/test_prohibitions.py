@@ -99,6 +99,23 @@ def test_what_forbids_a_manner_a_way_or_a_loss_is_no_prohibition_to_hold(text):
 
 
 @pytest.mark.parametrize(
+    ("text", "is_refused"),
+    [
+        ("Leave the leaf alone, pick the berry", False),
+        ("Hands off the leaf, grab the berry", False),
+        ("Hold the berry without touching the stem", False),
+        ("Leave the green one alone, take the red one", False),
+        ("Leave the leaf alone", True),
+        ("Leave the leaf alone, don't pick the berry", True),
+        ("Leave the berry alone, pick the egg", True),
+        ("Pick the berry without touching the berry", True),
+    ],
+)
+def test_what_is_left_alone_may_be_another_thing(text, is_refused):
+    assert bool(read_contract(text, terms(), {}).refused) is is_refused
+
+
+@pytest.mark.parametrize(
     ("text", "softer"),
     [
         ("Holding it too hard is forbidden.", True),

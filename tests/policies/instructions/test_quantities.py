@@ -277,6 +277,9 @@ def test_a_sum_of_forces_or_percent_is_worked_out(text, force_n):
     [
         ("Hold it with 1 Nm.", "'nm' is no unit of force; say N"),
         ("Hold it with 2 kips.", "'kips' is no unit of force; say N"),
+        ("Hold it with 0.8 M.", "'m' is no unit of force; say N"),
+        ("At most 0.8 M of force", "'m' is no unit of force; say N"),
+        ("Grab it with 10 Hz", "'hz' is no unit of force; say N"),
         ("At most 3 poundals.", "'poundals' is no unit of force; say N"),
         ("Apply 1.5 joules.", "'joules' is no unit of force; say N"),
         ("Hold it with 1O N.", "'o' is no unit of force; say N"),

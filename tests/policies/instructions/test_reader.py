@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from importlib import resources
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from policies.contract import read_contract
@@ -129,6 +129,7 @@ def test_any_text_at_all_becomes_a_contract_or_a_refusal_in_time(text):
     read(text)
 
 
+@example("one strawberry " * 40)  # cut within a word
 @settings(max_examples=200)
 @given(salad | repeated)
 def test_any_salad_of_its_own_words_becomes_a_contract_or_a_refusal_in_time(text):

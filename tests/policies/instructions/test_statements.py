@@ -34,6 +34,15 @@ from policies.instructions.statements import without_statements
         "Use 2 N unless it is a strawberry.",
         "Use 2 N provided the fruit was picked before Sunday.",
         "Don't hold the plum with 1.8 N.",
+        "1.5 N is what I asked for yesterday; today I want less",
+        "Last week I wanted 2 N. This time I want less than that.",
+        "You are at 2 N, go lower",
+        "I can squeeze with 2 N",
+        "Use 2 N tomorrow",
+        "2 N? Are you crazy?",
+        "The other operator wants 2 N",
+        "To crush it takes 2 N",
+        "Don't squash it with 2 N",
         "Wonderful, another 2.5 N masterpiece on the floor.",
     ],
 )
@@ -109,6 +118,55 @@ def test_a_force_of_something_else_leaves_the_force_to_the_task(text: str) -> No
 )
 def test_bounds_in_other_languages_are_bounds(text: str, kind: str) -> None:
     assert [force.kind for force in read_request(text).numbers.forces] == [kind]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "The operator wants 1 N",
+        "The grower needs 1 N for this one",
+        "As I said before, 1 N",
+        "Use 1 N, it worked yesterday",
+        "Hold it with 1 N, softer than last time",
+        "We are at 2 N, go to 1 N",
+        "Squish it a wee bit, like 1 N",
+        "I'd be grateful for 1 N",
+    ],
+)
+def test_what_is_wished_is_carried_out(text: str) -> None:
+    request = read_request(text)
+
+    assert [(force.kind, force.value_n) for force in request.numbers.forces] == [("value", 1.0)]
+    assert request.refused == ""
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "Grab the berry unless it is 4 pm",
+        "If it is ripe, pick it",
+        "Pick it only if the boss agrees",
+        "As long as it is red, pick it",
+        "Hold it at most with 1 N if it is ripe",
+    ],
+)
+def test_a_request_under_a_condition_that_cannot_be_looked_at_is_refused(text: str) -> None:
+    assert "is a condition that a gripper can't check" in read_request(text).refused
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "Grab the berry if you can",
+        "Pick the berry unless told otherwise",
+        "Pick it even if it rains",
+        "If in doubt, hold it gently",
+        "Be gentle, my boss gets angry if the berry is bruised",
+        "Hold it tighter if it slips",
+    ],
+)
+def test_what_is_no_condition_of_a_request_is_carried_out(text: str) -> None:
+    assert read_request(text).refused == ""
 
 
 def test_what_is_stated_is_named() -> None:
