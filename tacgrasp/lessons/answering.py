@@ -187,4 +187,5 @@ def _probably(given: Answer) -> str:
         verdict, comma, clause = given.text.rstrip(".").partition(",")
         return f"{verdict}, probably:{clause}." if comma else f"{verdict}, probably."
     word = "About" if given.kind is AnswerKind.NUMBER and given.text[:1].isdigit() else "Probably"
-    return f"{word} {given.text[:1].lower()}{given.text[1:]}"
+    is_code = given.text[1:2].isupper()  # 'STOP'
+    return f"{word} {given.text if is_code else given.text[:1].lower() + given.text[1:]}"

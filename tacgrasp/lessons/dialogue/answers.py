@@ -50,6 +50,7 @@ from tacgrasp.lessons.dialogue.quantities import (
     amount_text,
     can_be_in,
     number_in,
+    to_step,
     value_text,
 )
 from tacgrasp.lessons.dialogue.scene import AskedScene, Value
@@ -58,8 +59,8 @@ OFF_TOPIC = "That is not about touch."
 UNKNOWABLE = "I can't feel {}."
 _BAND_TESTS = (IN_BAND, "force_n < band_low_n", "force_n > band_high_n")
 _COMPARED = re.compile(
-    rf"(?P<left>{re.escape(MEAN_PRESSURE)}|area_mm2|(?:min\(|hypot\()?pad_[^<>=]+?) (?:<=|>=|<|"
-    rf">) [\d.]+"
+    rf"(?:not \()?(?:abs\()?(?P<left>{re.escape(MEAN_PRESSURE)}|area_mm2|"
+    rf"(?:min\(|hypot\()?pad_[^<>=]+?)(?: - [\d.]+\))? (?:<=|>=|<|>) [\d.]+\)?"
 )
 _SUPPOSED_N = re.compile(
     r"(?P<force>\(?force_n [+-] [\d.]+\)?|[\d.]+ \* force_n|\(1 [+-] [\d.]+ / 100\) \* force_n|"
@@ -67,6 +68,11 @@ _SUPPOSED_N = re.compile(
     r"band_low_n <= (?P<within>[^<>]*\bforce_n\b[^<>]*[^<>\s\w][^<>]*) <= band_high_n"
 )
 """A force that a question supposes, and what it is compared with."""
+
+_SUPPOSED_G = re.compile(
+    r"(?:(?P<force>force_n)|[\d.]+) (?:<|>=) (?P<needed>gram_n \* (?P<mass>.*\bmass_g\b.*))"
+)
+"""The force that a supposed mass needs, or that the given one needs: '2 >= gram_n * mass_g'."""
 
 _TESTED = re.compile(r"(?P<name>\w+) .*\d (?P<unit>\S+)")
 """A quantity that a check compares with a number: 'force > 100 g'."""
@@ -152,6 +158,7 @@ def _amount_clause(asked: Amount, scene: AskedScene) -> tuple[str, str]:
     quantity, is_less = QUANTITIES[asked.quantity], bool(asked.less)
     value = Expression(truth_of(asked)).evaluate(scene.values()).value
     text = amount_text(asked.quantity, float(value or 0.0), asked.unit, scene, is_signed=is_less)
+    text = to_step(text, asked.step)
     # the number of the question is not repeated: an answer has one number
     noun = f"the difference of {quantity.name}" if is_less else quantity.name
     return text, f"{noun} is {text}"
@@ -191,6 +198,7 @@ def _calculated(asked: Calculated, scene: AskedScene) -> Answer:
     if asked.unit is not None:
         is_count = isinstance(value, int) and not asked.unit
         text = str(int(value)) if is_count else value_text(float(value), asked.unit)
+        text = to_step(text, asked.step)
         return Answer(text=f"{text}.", kind=kind, value=number_in(text), unit=asked.unit)
     is_of_band = any(test in asked.truth for test in _BAND_TESTS)
     shown = [FACT_OF[name] for name in names_of(asked) if name in FACT_OF]
@@ -202,6 +210,12 @@ def _calculated(asked: Calculated, scene: AskedScene) -> Answer:
         clauses = [f"the advice is to {ACTIONS[str(scene.values()['action'])]}"]
     if supposed := _SUPPOSED_N.fullmatch(asked.truth):
         clauses = _supposed_clauses(supposed["force"] or supposed["within"], clauses, scene)
+    loaded = _SUPPOSED_G.fullmatch(asked.truth)
+    if loaded and (loaded["mass"] != "mass_g" or not loaded["force"]):
+        needed = float(Expression(loaded["needed"]).evaluate(scene.values()).value or 0.0)
+        needs = "needs" if loaded["mass"] == "mass_g" else "would need"
+        felt = f" and {fact('force', scene)[1]}" if loaded["force"] else ""
+        clauses = [f"it {needs} {needed:.2f} N{felt}"]
     if kind is AnswerKind.CHOICE:
         text = _chosen(str(value), clauses, Expression(asked.truth).choices)
         return Answer(text=text, kind=kind, value=value)

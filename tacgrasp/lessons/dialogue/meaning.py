@@ -45,6 +45,7 @@ class Amount:
             ('100 / 1000'); '' for the quantity itself.
         of: A mass of the question that is meant in place of the given one ('60 g'); '' for none.
         length: How long the answer is to be.
+        step: What the answer is rounded to a multiple of, in its unit; 0 for its usual digits.
     """
 
     quantity: str
@@ -52,6 +53,7 @@ class Amount:
     less: str = ""
     of: str = ""
     length: Length = Length.FREE
+    step: float = 0.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -83,10 +85,12 @@ class Calculated:
     Attributes:
         truth: Its expression; one between quoted words is a choice.
         unit: Unit of a number, '' of a ratio; None for a yes or no, or a choice.
+        step: What a number is rounded to a multiple of, in its unit; 0 for its usual digits.
     """
 
     truth: str
     unit: str | None
+    step: float = 0.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

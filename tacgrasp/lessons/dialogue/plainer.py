@@ -77,6 +77,22 @@ _POLITE_VERB = re.compile(
     re.I,
 )
 _SIGNS = (
+    (
+        re.compile(
+            r"(?P<low>\d+(?:[.,]\d+)?(?: ?[a-zµ%²]+)?) ?(?:<=?|≤) ?(?P<what>(?:the )?[a-zδ]+) ?"
+            r"(?:<=?|≤) ?(?=\d)(?P<high>[\d.,]+)",
+            re.I,
+        ),
+        r"\g<what> between \g<low> and \g<high>",
+    ),
+    (
+        re.compile(
+            r"(?P<high>\d+(?:[.,]\d+)?(?: ?[a-zµ%²]+)?) ?(?:>=?|≥) ?(?P<what>(?:the )?[a-zδ]+) ?"
+            r"(?:>=?|≥) ?(?=\d)(?P<low>[\d.,]+(?: ?(?:m?n|mm|[µu]m|g|%)\b)?)",
+            re.I,
+        ),
+        r"\g<what> between \g<low> and \g<high>",
+    ),
     (re.compile(r"\|\s*([xy])\s*\|", re.I), r"abs \1"),
     (re.compile(r"(?:(?<=^)|(?<=\s))[-−]\s?(?=[xy]\b)", re.I), "minus "),
     (re.compile(r"\b(limit|ceiling) ?[-−] ?(?=(?:the )?force\b)", re.I), r"\1 minus "),
@@ -95,6 +111,7 @@ _SIGNS = (
     (re.compile(r" ?&+ ?"), " and "),
     (re.compile(r" ?> ?"), " more than "),
     (re.compile(r" ?< ?"), " less than "),
+    (re.compile(r" ?[~≈∼] ?(?=[\d.])"), " about "),
 )
 _BAND_S_ENDS = re.compile(r"\b(?:the|its|our) (?:force )?band['’]s (?:two |both )?ends\b", re.I)
 _CLEFT = re.compile(
@@ -136,21 +153,6 @@ _ADDED = re.compile(
     re.I,
 )
 _SUPERIOR, _INFERIOR = (re.compile(rf"\b{word} to\b", re.I) for word in ("superior", "inferior"))
-_STEP = (
-    r"(?:(?:whole|full|half|quarter|tenth|hundredth|thousandth|one|two|five|ten|hundred|"
-    r"\d+(?:\.\d+)?)\b(?: of an?\b)?)"
-)
-_STEP_UNIT = (
-    r"(?P<unit>(?:newtons?|n|mm|millimet(?:re|er)s?|microns?|micromet(?:re|er)s?|[µu]m|grams?|g|"
-    r"per ?cent)\b|%)"
-)
-_ROUNDED = re.compile(
-    rf",?(?: rounded(?: off)?)? to the (?:next|nearest) "
-    rf"(?:(?:{_STEP} )*{_STEP_UNIT}|{_STEP}(?=\W*$))",
-    re.I,
-)
-"""'To the nearest tenth of a newton'; 'to the nearest edge' is something else."""
-
 _AS_REFERENCE = re.compile(
     r"(?:taking|using|with) (?P<mark>[^,?]+?) as (?:my|the|our|a|your) (?:reference|yardstick|"
     r"dividing line|threshold|benchmark|baseline|mark|cut-?off|line)(?: (?:point|value|mark))?,? "
@@ -243,7 +245,18 @@ _WORD_FITS = re.compile(
 )
 """'Is "centered" the word for where it is?', which asks whether it is centered."""
 
-_IN_UNIT = re.compile(r"\bin [a-zµ²%]+\b|\bhow many\b", re.I)
+_TERSE = re.compile(
+    rf"\d+(?:[.,]\d+)? ?{_UNIT_NAME} (?:(?:over|above|past|beyond|under|below|beneath|within|"
+    r"inside|in|outside(?: of)?|out of|(?P<exceeds>exceeds?)) (?:the |our |my )?"
+    r"(?:force |target |safe )?"
+    r"(?:limit|max(?:imum)?|cap|ceiling|band|range|window|zone|goal|target)|"
+    r"too (?:much|little|high|low|strong|weak)|allowed|permitted)[?.! ]*",
+    re.I,
+)
+"""'1500 mN over limit?', which asks whether it is."""
+
+_MAXIMUM = re.compile(r"\b(?:(?:the|our|my) )?max(?:imum)?\b", re.I)
+
 _NUMBER = r"(?<![\d.,])(\d+(?:\.\d+)?)"
 _FOREIGN = (
     (r"(?:grams?[ -](?:of )?force|gf)\b", 9.80665e-3, "newtons"),
@@ -351,13 +364,11 @@ def plainer(question: str) -> str:
     if fits := _WORD_FITS.fullmatch(text):
         text = f"is it {fits['a'] or fits['b'] or fits['c'] or fits['d']}?"
     text = _AS_REFERENCE.sub(r"\g<asks> \g<mark>\g<rest>", text)
-    if rounded := _ROUNDED.search(text):
-        rest = f"{text[: rounded.start()]}{text[rounded.end() :]}"
-        unit = rounded["unit"] if not _IN_UNIT.search(rest) else None
-        text = rounded.re.sub(f" in {unit}" if unit else "", text, count=1)
     if (right := _RIGHT.search(text)) and not _DENIED.search(text) and not _NEGATIVE.search(text):
         text = f"{text[: right.start()]}, is it?"
     text = _PURPOSE.sub("", _POLITE.sub("give me ", _THANKS.sub("", text), count=1))
+    if terse := _TERSE.fullmatch(text):
+        text = _MAXIMUM.sub("the limit", f"{'does' if terse['exceeds'] else 'is'} {text}")
     if tag := _TAG.search(text):
         text = _asked(text, tag)
     if " or " in text:

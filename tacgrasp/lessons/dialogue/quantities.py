@@ -302,6 +302,21 @@ def value_text(value: float, unit: str) -> str:
     return f"{round(value / size, decimals) + 0.0:.{decimals}f} {written}".rstrip()
 
 
+def to_step(text: str, step: float) -> str:
+    """A text with its first number rounded to a multiple of a step, unless it is coarser."""
+
+    def rounded(match: re.Match[str]) -> str:
+        decimals = len(match["decimals"] or "")
+        if step <= 10.0**-decimals:
+            return match[0]
+        told = math.floor(abs(float(match[0])) / step + 0.5) * step
+        shown = len(f"{step:.6f}".rstrip("0").partition(".")[2])
+        sign = match["sign"] if told else ""
+        return f"{sign}{told:.{shown}f}"
+
+    return re.sub(r"(?P<sign>[+-]?)\d+(?:\.(?P<decimals>\d+))?", rounded, text, count=1)
+
+
 def can_be_in(name: str, unit: str) -> bool:
     """Whether an answer can give a quantity in a unit.
 

@@ -18,6 +18,7 @@
     because mass, holds.                the facts behind an answer, other ones; no model writes it
     calculate 0.5 * limit_n in N.       a number by an expression; 'in 1' a ratio
     calculate force_n > 0.5 * limit_n.  yes or no, or a choice, so; no model writes these
+    amount depth mm to 0.1.             a number that is rounded; no model writes it
     describe.
     unknown price.                      touch can't know it
     other.                              it is not about touch
@@ -31,6 +32,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from functools import lru_cache
 from itertools import pairwise
 from typing import NamedTuple
@@ -175,6 +177,7 @@ _MM = re.compile(r"\bmm\b(?!²|\^)")
 _NUMBER = re.compile(r"(?<= )-?\d\S*")
 _REFERENCE = re.compile(r"#(\d)")
 _NEEDED = re.compile(rf"needed #(\d) ({'|'.join(MASS_UNITS)}) (\S+)")
+_ROUNDED = re.compile(r"((?:amount|calculate) .+) to (\S+)")
 _LESSENED = re.compile(r"(\w+) - #(\d) (\S+)")
 
 
@@ -328,6 +331,8 @@ def _alone() -> Iterator[str]:
 
 def _part(meaning: Meaning, numbers: Sequence[float]) -> str:
     match meaning:
+        case Amount(step=step) | Calculated(step=step) if step:
+            return f"{_part(replace(meaning, step=0.0), numbers)} to {number_text(step)}"
         case Amount(quantity=quantity, unit=unit, less=less) if less and unit in LESSENED.get(
             quantity, ()
         ):
@@ -375,6 +380,10 @@ def _referred(test: str, numbers: Sequence[float]) -> str:
 
 
 def _meaning(text: str, numbers: Sequence[float], length: Length) -> Meaning:
+    if found := _ROUNDED.fullmatch(text):
+        told = _meaning(found[1], numbers, length)
+        if isinstance(told, Amount | Calculated):
+            return replace(told, step=float(found[2]))
     kind, _, rest = text.partition(" ")
     words = rest.split()
     match kind:

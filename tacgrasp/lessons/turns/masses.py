@@ -33,8 +33,8 @@ from tacgrasp.lessons.turns.units import (
 _NEEDED = re.compile(
     r"(?=.*\b(?:force|grip|squeeze|newtons?|hard|strong|strongly|n|(?:the )?(?:least|minimum)(?: "
     r"that)? (?:i|we|you|it))\b)(?!.*\b(?:gravity|pull|pulls|weigh|weighs|push|apply|applying|"
-    r"pressing|is it|is that|are we|have|limit|heaviest|grams?|still|more|less|"
-    r"now)\b)(?=.*\b(?:needs?|needed|wants?|requires?|required|minimum|min|least|enough|takes?|"
+    r"pressing|is it|is that|are we|have|limit|heaviest|grams?|still|more|less|heavier|lighter|"
+    r"times|twice|double|half|another|extra|now)\b)(?=.*\b(?:needs?|needed|wants?|requires?|required|minimum|min|least|enough|takes?|"
     r"surely|sure|safely|do|holds?)\b)(?:(?:and|so|but|then)[, ]+)*(?:(?:with )?how (?:much|many|"
     r"strong|hard)|what|which|(?:the )?(?:minimum|least|needed|required|grip|force))\b.*",
     re.I,
@@ -49,7 +49,7 @@ _ANOTHER_THING = re.compile(
 _HEAVIER = re.compile(
     r"(?:(?:what )?if )?(?:it|that|this|the \w+) (?:were|was|is|weighed|weighs|had)(?: really)? "
     r"(?P<times>twice|half|double|three times|ten times|\d+(?:\.\d+)? times)"
-    r"(?: (?:as (?:heavy|much)|the (?:mass|weight)|that))*|"
+    r"(?: (?:as (?:heavy|much)|heavier|the (?:mass|weight)|that))*|"
     r"(?:(?:would|will|does) (?:it|that|this|the grip) (?:still )?(?:do|hold|suffice|work|be "
     r"enough) )?(?:for |with )?(?:one (?P<one>twice|half) as heavy|"
     r"(?P<that>twice|double|half|three times) (?:that|the|this) (?:mass|weight))",

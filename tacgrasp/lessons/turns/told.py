@@ -90,6 +90,11 @@ _CORRECTED = re.compile(
     re.I,
 )
 _WHAT_IF = re.compile(r"(?:(?:and|but|so)[, ]+)*(?:what )?(?:if|suppose|assuming) ", re.I)
+_BESIDE_IT = re.compile(
+    r"\b(in|inside|within|over|above|under|below) (?:it|that)(?=[?.! ]*$)", re.I
+)
+"""'Would we be in it?', behind a band that is told."""
+
 _BEFORE_IT = re.compile(r"[^\d,.:;?]+[,.:;] +(?=\D)")
 """A clause before what is told: 'It's an egg, so the limit is 1.5 N.'"""
 
@@ -128,6 +133,8 @@ def told_in(text: str, about: Meaning | None = None) -> tuple[Told, str] | None:
         return None
     told = Told(mass_g=mass_g, band_n=band_n, limit_n=limit_n, is_supposed=bool(found["if"]))
     asked = found["asked"] or ""
+    if (band_n is None) != (limit_n is None):
+        asked = _BESIDE_IT.sub(rf"\1 the {'limit' if band_n is None else 'band'}", asked)
     is_asked = "?" in asked or _ASKS.match(asked)  # 'the limit is 3 N, it is glass' asks nothing
     return told, asked if is_asked else ""
 

@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import pytest
 
 from tacgrasp.lessons import joined_questions, understanding
-from tacgrasp.lessons.answering import NOT_UNDERSTOOD, answered
+from tacgrasp.lessons.answering import NOT_UNDERSTOOD, UNSURE_BELOW, answered
 from tacgrasp.lessons.dialogue.query import read_query
 from tacgrasp.lessons.query_classifier import QueryOdds
 from tacgrasp.lessons.read_question import ReadQuestion
@@ -81,6 +81,32 @@ def test_a_long_question_and_one_of_several_parts_are_less_sure(question, query)
     brief = understood(Writer("word shape."), "What shape is it?")
     assert understood(Writer(query), question).confidence < brief.confidence - 0.02
     assert 0.9 < brief.confidence < 1
+
+
+@pytest.mark.parametrize(
+    ("question", "query"),
+    [
+        ("Is the force zorp 2 N?", "check force about #1 N."),
+        ("Is the force slower than 2 N?", "check force about #1 N."),
+        ("So is the area roughly 20 mm² now?", "check area > #1 mm²."),
+    ],
+)
+def test_a_comparison_that_is_not_read_is_never_sure(question, query):
+    assert understood(Writer(query), question).confidence < UNSURE_BELOW
+
+
+def test_a_comparison_that_is_read_may_be_sure():
+    for question, query in {
+        "Is the force about 2 N?": "check force about #1 N.",
+        "Is the area over 20 mm²?": "check area > #1 mm².",
+    }.items():
+        assert understood(Writer(query), question).confidence > 0.8
+
+
+def test_a_word_in_capitals_keeps_them_behind_probably():
+    meaning = read_query("calculate 'STOP' if force_n > 0.5 else 'go'.")
+    told = answered(ReadQuestion("", meaning, 1.0), HELD, {}, {"force_n": (0.3, 2.0)})
+    assert told.answer.text == "Probably STOP: the force is 0.83 N."
 
 
 def test_a_number_comes_in_the_unit_of_the_query():

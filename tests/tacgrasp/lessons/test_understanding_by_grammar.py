@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 
 from tacgrasp.lessons.answering import answered
-from tacgrasp.lessons.understanding import understood
+from tacgrasp.lessons.understanding import understood, understood_by_grammar
 from tests.fakes.question_scenes import HELD
 
 
@@ -463,6 +463,64 @@ def test_what_no_query_has_is_not_put_to_the_model(question):
 
 _NEAREST = "min(pad_width_mm / 2 - abs(x_mm), pad_height_mm / 2 - abs(y_mm))"
 _READ = {
+    "1,500 mN over limit?": "calculate 1.5 > limit_n.",
+    "0.8 N inside band?": "calculate band_low_n <= 0.8 <= band_high_n.",
+    "3 N too much?": "check limit < #1 N.",
+    "Is 1 N <= force <= 3 N?": "check force #1 - #2 N.",
+    "Would it slip if the berry were 3 times heavier?": "calculate force_n < gram_n * 3 * mass_g.",
+    "Would it slip if it were 2.5 times the weight?": "calculate force_n < gram_n * 2.5 * mass_g.",
+    "Would it slip if it was half as heavy?": "calculate force_n < gram_n * 0.5 * mass_g.",
+    "Will it slip if the object is 50% heavier?": (
+        "calculate force_n < gram_n * (1 + 50 / 100) * mass_g."
+    ),
+    "Were it 20 % lighter, would it slip?": (
+        "calculate force_n < gram_n * (1 - 20 / 100) * mass_g."
+    ),
+    "Does it slip at double the mass?": "calculate force_n < gram_n * 2 * mass_g.",
+    "If it weighed 4x as much, would it slip?": "calculate force_n < gram_n * 4 * mass_g.",
+    "Would it hold ten times the mass?": "calculate force_n >= gram_n * 10 * mass_g.",
+    "Is that enough for twice the mass?": "calculate force_n >= gram_n * 2 * mass_g.",
+    "If the load triples, do we drop it?": "calculate force_n < gram_n * 3 * mass_g.",
+    "If I hang another 80 g on it, will it slip?": "calculate force_n < gram_n * (mass_g + 80).",
+    "Will it slip with 10 g more on it?": "calculate force_n < gram_n * (mass_g + 10).",
+    "Plus 20 g, does it slip?": "calculate force_n < gram_n * (mass_g + 20).",
+    "Can it carry another 0.1 kg?": "calculate force_n >= gram_n * (mass_g + 100).",
+    "Will it slip if it gets 80 g heavier?": "calculate force_n < gram_n * (mass_g + 80).",
+    "Would adding 100 g make it slip?": "calculate force_n < gram_n * (mass_g + 100).",
+    "Would it slip if I added 1 N?": "calculate (force_n + 1) < gram_n * mass_g.",
+    "Would it hold five of these?": "calculate force_n >= gram_n * 5 * mass_g.",
+    "Can it lift 3 of those?": "calculate force_n >= gram_n * 3 * mass_g.",
+    "Would 2 N hold it?": "calculate 2 >= gram_n * mass_g.",
+    "Would half the force hold it?": "calculate 0.5 * force_n >= gram_n * mass_g.",
+    "What's the minimum force to hold it?": "amount needed N.",
+    "What is the smallest grip that still holds it?": "amount needed N.",
+    "Is the band wider than 1 N?": "calculate band_high_n - band_low_n > 1.",
+    "Is the gap between band and limit more than 1 N?": "calculate limit_n - band_high_n > 1.",
+    "Is the force within 10 % of 2.5 N?": "calculate abs(force_n - 2.5) <= 10 / 100 * 2.5.",
+    "Is the force 2 N ± 20 %?": "calculate abs(force_n - 2) <= 20 / 100 * 2.",
+    "Is the area within 5 % of 20 %?": "calculate abs(area_percent - 20) <= 5.",
+    "At 3 N would 200 g slip?": "check needed #2 g > #1 N.",
+    "With a limit of 2 N are we over?": "calculate force_n > 2.",
+    "Is it deaper then 0.2 mm?": "check depth > #1 mm.",
+    "is depht les then 1mm": "check depth < #1 mm.",
+    "Is the area about 20 mm²?": "calculate abs(area_mm2 - 20) <= 2.",
+    "Is the area approximately 20 square mm?": "calculate abs(area_mm2 - 20) <= 2.",
+    "Does it cover about 12 % of the pad?": "calculate abs(area_percent - 12) <= 1.2.",
+    "Is x about -2 mm?": "calculate abs(x_mm - -2) <= 0.2.",
+    "Is the area not about 20 mm²?": "calculate not (abs(area_mm2 - 20) <= 2).",
+    "Is the mean pressure about 60 kPa?": "calculate abs(force_n / area_mm2 - 0.06) <= 0.006.",
+    "Is the limit around 4 N?": "calculate abs(limit_n - 4) <= 0.4.",
+    "Is the limit 4 N?": "calculate abs(limit_n - 4) <= 0.04.",
+    "Is the mass 25 g?": "calculate abs(mass_g - 25) <= 0.25.",
+    "Is it about 5 mm off centre?": "calculate abs(hypot(x_mm, y_mm) - 5) <= 0.5.",
+    "Is it 4 mm left?": "calculate abs(-1 * x_mm - 4) <= 0.4.",
+    "If the force is above 3 N, say STOP.": "calculate 'STOP' if force_n > 3 else 'not so'.",
+    "Say stop if the force is above 3 N.": "calculate 'stop' if force_n > 3 else 'not so'.",
+    "Reply OK if the force is within the band.": (
+        "calculate 'OK' if band_low_n <= force_n <= band_high_n else 'not so'."
+    ),
+    "Is the safety factor above 2?": "calculate holds_g / mass_g > 2.",
+    "What is the size of the pad?": "calculate pad_width_mm * pad_height_mm in mm².",
     "How far is the contact from the nearest border, in mm?": f"calculate {_NEAREST} in mm.",
     "Does the touch keep at least 3 mm from every edge?": f"calculate {_NEAREST} >= 3.",
     "What is the distance to the upper right corner of the pad?": (
@@ -551,9 +609,28 @@ def test_a_question_is_read_as_it_is_meant(question, query):
         ("Is the mean pressure above 40 kPa?", "No, the mean pressure is 22.4 kPa."),
         ("Is it more than 3 mm from every edge?", "Yes, the distance is 6.41 mm."),
         ("True or false: it is a sphere.", "False: it is an ellipsoid."),
+        ("If the force is above 3 N, say STOP.", "Not so: the force is 0.83 N."),
+        ("If the force is above 0.5 N, say STOP.", "STOP: the force is 0.83 N."),
+        ("Would 0.4 N hold it?", "No, it needs 0.51 N."),
+        ("Is the area about 20 mm²?", "No, the contact area is 37 mm²."),
+        ("Is the pressure about 22 kPa?", "Yes, the mean pressure is 22.4 kPa."),
     ],
 )
 def test_what_is_compared_is_told(question, text):
     read = understood(Refusing(), question)
     assert read is not None
-    assert answered(read, HELD).answer.text == text
+    assert answered(read, replace(HELD, mass_g=25.0)).answer.text == text
+
+
+def test_a_supposed_load_is_told_by_the_force_that_it_needs():
+    read = understood(Refusing(), "Would it slip if it were 3 times heavier?")
+    given = answered(read, replace(HELD, mass_g=25.0)).answer
+    assert given.text == "Yes, it would need 1.54 N and the force is 0.83 N."
+    unknown = answered(read, replace(HELD, mass_g=None)).answer
+    assert (unknown.decidable, unknown.text) == (False, "I can't say: no mass is given.")
+
+
+@pytest.mark.parametrize("question", ["May I squeeze with 4 N?", "Can I press with 2 N?"])
+def test_what_may_be_done_is_not_asked_of_what_is(question):
+    read = understood_by_grammar(question)
+    assert read is None or "abs(" not in read.query

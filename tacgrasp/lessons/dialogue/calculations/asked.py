@@ -71,7 +71,7 @@ _CONVERT = re.compile(
     rf"^(?:convert|translate|turn|change) (?P<what>.+?) (?:in)?to (?P<unit>{UNIT})$"
 )
 _LAST_UNIT = re.compile(
-    rf"(?<!#\d)(?<!\bper)(?<!\ba)(?<!\bone)(?<!\bof)(?<!\bby)(?<!\bthan) "
+    rf"(?<!#\d)(?<!\bsquare)(?<!\bsq)(?<!\bper)(?<!\ba)(?<!\bone)(?<!\bof)(?<!\bby)(?<!\bthan) "
     rf"({UNIT})(?: (?:that|it) is)?$"
 )
 """A unit at the end, behind a comma: 'the new force, N'."""

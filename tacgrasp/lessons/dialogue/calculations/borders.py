@@ -123,7 +123,8 @@ _PAD_AREA = re.compile(
     rf"(?:what is )?(?:(?:the|total|full|whole|entire) )+(?:gel|pad|sensor|sensing|"
     rf"sensitive)(?:'s)? "
     rf"(?:area|surface)"
-    rf"(?: of {_WHOLE_PAD})?|(?:what is )?{_WHOLE_PAD}(?:'s)? (?:(?:total|whole|full|entire) )+area"
+    rf"(?: of {_WHOLE_PAD})?|(?:what is )?(?:the )?size of "
+    rf"{_WHOLE_PAD}|(?:what is )?{_WHOLE_PAD}(?:'s)? (?:(?:total|whole|full|entire) )+area"
 )
 _ORIGIN = re.compile(
     r"\b(?:origin|zero point|coordinates?|coordinate system|image convention|counting from|"

@@ -70,17 +70,19 @@ _TIMES_MORE: Mapping[str, str] = {
 }  # fmt: skip
 _WITH = r"(?:(?:with|at|using|by|given|on|for|having|applying) )?"
 _GRIP = r"(?:force|grip|squeeze|pressure|clamp|clamping|indentation|depth)"
+_GRAMS = r"g|grams?|kg|kilos?|kilograms?"
 _MORE_OF = re.compile(
     rf"{_WITH}(?:(?:an?|another|an? (?:extra|additional|further)|yet another|an) )?(?:extra )?"
     rf"(?P<b>#\d+ \w+)(?: of)?(?: (?:(?P<up>more|extra|additional|further|on top|added|higher|"
     rf"harder|"
     rf"stronger|firmer|tighter)|(?P<down>less|fewer|lower|softer|lighter|weaker|looser|taken off|"
     rf"off)))+"
-    rf"(?: (?:of )?(?:(?:the|my|our) )?(?P<a>{_GRIP}))?"
+    rf"(?: (?:of )?(?:(?:the|my|our) )?(?P<a>{_GRIP}))?(?: on (?:it|this|that|top|board|the \w+))?"
 )
 _ANOTHER = re.compile(
     rf"{_WITH}(?:another|(?:an? )?(?:extra|additional|further)) (?P<b>#\d+ \w+)(?: (?:of )?"
-    rf"(?:(?:the|my|our) )?(?P<a>{_GRIP}))?(?: on top(?: of .+)?)?"
+    rf"(?:(?:the|my|our) )?(?P<a>{_GRIP}))?(?: on top(?: of .+)?| on (?:it|this|that|the \w+))?|"
+    rf"plus (?:another )?(?P<plus>#\d+ (?:{_GRAMS}))(?: (?:more|extra|on (?:it|top)))*"
 )
 _AT_TIMES = re.compile(
     rf"{_WITH}(?P<n>half|twice|double|two times|thrice|triple|three times|four times|quadruple) "
@@ -98,6 +100,7 @@ _CHANGES = tuple(
         ("-", rf"(?P<a>.+?) {_DOWN}(?: by)? (?P<b>#.+|(?<=by )(?:a|one|half).+|(?<=by )half)"),
         ("=", rf"(?P<a>.+?) (?:{_UP}|{_DOWN}|{_WAS}(?:set|changed)) to (?P<b>.+)"),
         ("=", r"(?P<a>.+?) (?:was|were|is)(?: only| just)? (?P<b>#\d+ \w+|twice .+|half .+)"),
+        ("=", r"(?:an? |the |our )?(?P<a>limit|ceiling|cap) of (?P<b>#\d+ \w+)"),
         ("+", rf"{_WHO} (?:{_TURN}) (?P<a>.+?) up(?: by)? (?P<b>.+)"),
         ("-", rf"{_WHO} (?:{_TURN}) (?P<a>.+?) (?:down|back|off)(?: by)? (?P<b>.+)"),
         ("+", rf"{_WHO} {_RAISED} (?P<a>.+?) by (?P<b>.+)"),
@@ -192,25 +195,36 @@ _SANK = re.compile(
     r"(?P<b>#\d+ \w+)(?: (?:further|deeper|more|in|down))*"
 )
 _WEIGHED = re.compile(
-    r"(?:it|the \w+) (?:weigh(?:s|ed)?|were|was|had|has|got) (?P<b>#\d+ \w+) "
+    r"(?:it|the \w+) (?:weigh(?:s|ed)?|were|was|is|had|has|got|gets?|becomes?|became)(?: to be)? "
+    r"(?P<b>#\d+ \w+) "
     r"(?:(?P<up>more|heavier|extra)|(?:less|lighter))"
     r"(?: than (?:(?:you|we|i) (?:were|was|are|am) told|told|now|it is(?: now)?|stated|given|"
     r"(?:you|we|i) think))?"
 )
 _HELD = rf"(?:it|this|that|they|(?:(?:the|this|that|my|our) )?(?:told |held )?{THING})"
-_HEAVIER = re.compile(
-    rf"{_HELD} (?:were|was|is|weigh(?:s|ed)?|had|has|got|be|turned out)(?: to be)? (?P<n>half|"
-    rf"twice|"
-    r"double|thrice|triple|three times|four times|#\d+ times) (?:(?:as|so) (?:heavy|much)|heavier|"
-    r"(?:(?:the|its|that|this|as much) )?(?:mass|weight))(?: (?:as|than) .+|(?: that)? (?:i|we|"
-    r"you) .+|"
-    r" (?:stated|told|given|agreed))?|"
-    rf"(?:the |its )?(?:mass|weight)(?: of {_HELD})? (?:was|were|is) (?P<m>half|twice|double|"
-    rf"thrice|"
-    r"triple|#\d+ times)(?: (?:that|as (?:much|large|big)|what .+))?"
+_TIMES_AS = (
+    r"(?P<n>half|twice|double|two times|thrice|triple|three times|four times|quadruple|"
+    r"(?:an? )?#\d+ (?:times|x|fold))"
 )
-"""'The part were twice as heavy'."""
+_ITS_WEIGHT = (
+    r"(?:of )?(?:(?:the|its|that|this|our|your|as much) )?(?:(?:given|told|stated|present|current|"
+    r"original) )?(?:mass|weight|load)"
+)
+_HEAVIER = re.compile(
+    rf"(?:{_HELD} (?:were|was|is|weigh(?:s|ed)?|had|has|got|gets?|became|becomes?|be|turned out)"
+    rf"(?: to (?:be|weigh))?|(?:the |its )?(?:mass|weight|load)(?: of {_HELD})? (?:was|were|is)|"
+    rf"(?:with|at|for|under|holding|carrying|lifting))? ?"
+    rf"(?:{_TIMES_AS} (?:(?:as|so) (?:heavy|much|massive|large|big)|heavier|more massive|"
+    rf"(?P<light>lighter)|that|what .+|{_ITS_WEIGHT})|"
+    rf"(?:an? )?(?P<p>#\d+ percent) (?:(?P<more>heavier|more massive|"
+    rf"(?:more|extra) (?:mass|weight|load))|lighter|"
+    rf"less (?:massive|mass|weight|load)|(?P<of>of (?:that|it|{_ITS_WEIGHT})))"
+    rf")(?: (?:as|than) .+|(?: that)? (?:i|we|you) .+| (?:stated|told|given|agreed|now)|"
+    rf" {THING})?"
+)
+"""'The part were twice as heavy', 'at double the mass', '50 % heavier'."""
 
+_SEVERAL = re.compile(r"holding (?P<n>#\d+) of (?:these|them|those)")
 _SECOND = re.compile(
     rf"(?:an?|#1|one|another|one more|the same)? ?(?:second|further|other|identical|equal|more|"
     rf"such)?"
@@ -241,9 +255,12 @@ _MOVED = re.compile(
     r"(?:to the )?(?P<side>left|right|up|down)(?:wards?)?"
 )
 _LOADED = re.compile(
-    rf"{_WHO} (?:add(?:ed)?|put|stuck|stick|glued?|attach(?:ed)?|placed?|hung) "
-    rf"(?:an? )?(?P<b>#\d+ \w+)"
-    r"(?: \w+)? (?:to|onto|on) (?:the )?\w+"
+    rf"{_WHO} (?:add(?:ed)?|put|stuck|stick|glued?|attach(?:ed)?|placed?|hung|hang|pour(?:ed)?(?: "
+    r"in)?|load(?:ed)?(?: on)?|stack(?:ed)?|piled?|taped?|tied?|tie|clip(?:ped)?|fix(?:ed)?|"
+    r"set|laid|lay|drop(?:ped)?|fill(?:ed)? in) "
+    rf"(?:(?:another|an?|some|extra|additional|further) )*(?P<b>#\d+ (?:{_GRAMS}))"
+    r"(?: (?:more|extra)| of \w+| (?!of\b|more\b)\w+)*? ?(?:(?:to|onto|on|in|into|on top of) "
+    r"(?:(?:the|its|this|that) )?\w+|on top)?"
 )
 _SHARED = re.compile(
     r"(?P<n>#\d+) (?:jaws|fingers|pads|grippers|people|robots|of them|parts)(?: \w+)? "
@@ -269,14 +286,23 @@ def _heavier(asked: AskedWords, change: str) -> Term | None:
     """The told mass many times over, or with so much on it."""
     if (found := _STUCK.fullmatch(change)) and (load := asked.term(found["b"])):
         return _by(usual("mass"), "+", load) if load.dimension == "mass" else None
+    if (many := _SEVERAL.fullmatch(change)) and (count := asked.term(many["n"])):
+        return replace(usual("mass"), expression=f"{count.expression} * mass_g", words="")
     times = _HEAVIER.fullmatch(change)
     if times is None and (_SECOND.fullmatch(change) is None or "#" in change):
         return None
-    said = (times["n"] or times["m"]) if times else "twice"
+    mass, said = usual("mass"), times["n"] if times else "twice"
+    if times and times["p"]:
+        part = asked.term(times["p"])
+        if part and times["of"]:
+            return replace(mass, expression=f"{part.expression} / 100 * mass_g", words="")
+        return part and _by(mass, "+" if times["more"] else "-", part)
     factor = next((n for n, named in _TIMES_MORE.items() if re.fullmatch(named, said)), "")
-    count = asked.term(said.removesuffix(" times")) if not factor else None
-    factor = count.expression if count else factor
-    return replace(usual("mass"), expression=f"{factor} * mass_g", words="") if factor else None
+    if not factor and (count := asked.term(re.sub(r"^an? | \w+$", "", said))):
+        factor = count.expression
+    is_less = times is not None and times["light"] is not None
+    made = f"mass_g / {factor}" if is_less else f"{factor} * mass_g"
+    return replace(mass, expression=made, words="") if factor else None
 
 
 def _topped(asked: AskedWords, change: str) -> Term | None:
@@ -290,12 +316,13 @@ def _topped(asked: AskedWords, change: str) -> Term | None:
     for pattern in (_MORE_OF, _ANOTHER):
         if (found := pattern.fullmatch(change)) is None:
             continue
-        by = asked.term(found["b"])
+        named = found.groupdict()
+        by = asked.term(found["b"] or named["plus"])
         dimension = "force" if by and by.unit == "%" else by.dimension if by else ""
         if by is None or dimension not in ("force", "length", "mass"):
             return None
         term = asked.term(found["a"]) if found["a"] else usual(dimension)
-        is_less = found.groupdict().get("down") is not None
+        is_less = named.get("down") is not None
         if term is None or (term.dimension != dimension and by.unit != "%"):
             return None
         return _by(term, "-" if is_less else "+", by)
@@ -352,6 +379,8 @@ def _multiplied(asked: AskedWords, change: str) -> Term | None:
         if found is None:
             continue
         term = asked.term(found["a"])
+        if term is None and found["a"].removeprefix("the ") in ("load", "payload"):
+            term = usual("mass")
         if term is None and found["a"] in ("it", "that", "this"):
             is_deep = UNITS[asked.unit].dimension == "length" if asked.unit in UNITS else False
             is_deep = (

@@ -16,6 +16,8 @@ from tacgrasp.lessons.dialogue.calculations.asked import AskedWords, usual
 from tacgrasp.lessons.dialogue.calculations.phrases import EXCEEDS, MOVES, REACHES
 from tacgrasp.lessons.dialogue.calculations.quantity_names import THING, UNIT, is_band
 from tacgrasp.lessons.dialogue.calculations.terms import Term, alike
+from tacgrasp.lessons.dialogue.conditions import ABOUT, number_text
+from tacgrasp.lessons.dialogue.expression import Expression
 from tacgrasp.lessons.dialogue.meaning import Calculated
 
 _VERB = r"(?:is|are|was|were|does|do|did|would|will|has|have|can|could)"
@@ -104,6 +106,43 @@ _SIDE_OF = re.compile(
 _WITHIN = re.compile(
     rf"(?P<a>.+?)(?: {_ADVERB})*(?: {_BE})? (?:with)?in (?:plus minus |plus or minus )?(?P<c>#.+?) "
     r"(?:of|from|around) (?P<b>.+)"
+)
+_BEING = (
+    rf"(?:{_BE}|cover(?:ing)?|weigh(?:ing)?|measure|occupy|"
+    r"(?:press|push|squeez|gripp)ing(?: with| at)?)"
+)
+_OFF_CENTER = re.compile(
+    rf"(?:it|the (?:contact|object|touch|patch))(?P<being>(?: {_ADVERB})*(?: {_BE})?(?: not)?"
+    rf"(?: (?:about|around|roughly|approximately|exactly|just))?) (?P<by>#\d+ (?:{UNIT})) "
+    r"(?:(?:off|from|away from|out of|off of|off from) (?:the )?(?:center|middle)|"
+    r"(?:(?:off )?(?:to )?(?:the )?(?P<side>left|right|up|down|above|below))"
+    r"(?: (?:of|from)? ?(?:the )?(?:center|middle))?)(?: of the pad)?"
+)
+_OFFSETS = {
+    None: "distance from the center", "left": "minus x", "right": "x", "up": "y", "above": "y",
+    "down": "minus y", "below": "minus y",
+}  # fmt: skip
+"""'It is about 5 mm off center', '4 mm left of it'."""
+
+_ABOUT = re.compile(
+    rf"(?P<a>.+?)(?: {_ADVERB})*(?: {_BEING})?(?P<not> not)?(?: {_ADVERB})* "
+    r"(?:(?:about|around|roughly|approximately|circa|ca|nearly|almost|"
+    r"(?:close to|near|some|something like)(?= #)) (?P<b>.+?)(?: (?:of|on) (?:the )?pad)?|"
+    r"(?P<c>#\d+ .+?) (?:or so|give or take|or thereabouts))"
+)
+_EQUAL = re.compile(
+    rf"(?P<a>.+?)(?: {_ADVERB})*(?: {_BEING})?(?P<not> not)?(?: {_ADVERB})*"
+    r"(?: (?:exactly|precisely|just|equal to|the same as|set to|set at|at))? "
+    rf"(?P<b>#\d+ (?:{UNIT}))(?: (?:of|on) (?:the )?pad)?"
+)
+_EXACT = re.compile(r"(?:mass_g|limit_n|band_low_n|band_high_n)")
+_LEAST_APART = 0.01
+"""Distance from a number, as a fraction of it, up to which what is told is that number."""
+
+_WIDER = re.compile(r"^(?:(?:the|our) )?(?:force )?band(?: be)? (wider|narrower) than")
+_WIDTHS = {"wider": "more", "narrower": "less"}
+_PLUS_MINUS = re.compile(
+    rf"^(?P<a>.+?) (?P<b>#\d+ (?:{UNIT})) (?:plus (?:or )?minus|give or take) (?P<c>#\d+ percent)$"
 )
 _BETWEEN = re.compile(
     rf"(?P<a>.+?)(?: {_ADVERB})*(?: {_BE})? (?:somewhere )?between (?P<b>.+) and (?P<c>.+)"
@@ -250,6 +289,8 @@ def condition_of(asked: AskedWords, words: str) -> str | None:
     words = _PUSHED.sub("force more than", words)
     words = _OUTWEIGHS.sub("exceed the weight of ", words)
     words = _WEIGHS.sub("weight ", words)
+    words = _WIDER.sub(lambda band: f"width of the band {_WIDTHS[band[1]]} than", words)
+    words = _PLUS_MINUS.sub(r"\g<a> within \g<c> of \g<b>", words)
     if found := _NEARER.fullmatch(words):
         pairs = [
             _pair(asked, found["a"], each) for each in shared_noun(asked, found["b"], found["c"])
@@ -263,10 +304,15 @@ def condition_of(asked: AskedWords, words: str) -> str | None:
     if found := _WITHIN.fullmatch(words):
         pair = _pair(asked, found["a"], found["b"])
         tolerance = asked.term(found["c"])
+        if pair and tolerance and tolerance.unit == "%" and pair[0].dimension != "fraction":
+            away = f"{tolerance.factor} / 100 * {pair[1].factor}"
+            return f"abs({pair[0].expression} - {pair[1].factor}) <= {away}"
         if pair and tolerance and alike(pair[0], tolerance):
             near = alike(pair[0], tolerance)
             assert near is not None
             return f"abs({pair[0].expression} - {pair[1].factor}) <= {near[1].factor}"
+    if told := _near(asked, words):
+        return told
     if found := _BETWEEN.fullmatch(words):
         unit = re.match(rf"#\d+( (?:{UNIT}))\b", found["c"])
         least = (
@@ -282,6 +328,26 @@ def condition_of(asked: AskedWords, words: str) -> str | None:
             inside = f"band_low_n <= {force.factor} <= band_high_n"
             return f"not ({inside})" if found["out"] else inside
     return _comparison(asked, words)
+
+
+def _near(asked: AskedWords, words: str) -> str | None:
+    """Whether a term is another one, or about that."""
+    if off := _OFF_CENTER.fullmatch(words):
+        words = f"{_OFFSETS[off['side']]}{off['being']} {off['by']}"
+    if found := _ABOUT.fullmatch(words):
+        pair = _pair(asked, found["a"], found["b"] or found["c"])
+    elif found := _EQUAL.fullmatch(words):
+        pair = _pair(asked, found["a"], found["b"])
+    if found is None or pair is None:
+        return None
+    is_told = found.re is _EQUAL and _EXACT.fullmatch(pair[0].expression)
+    share = _LEAST_APART if is_told else ABOUT
+    number = Expression(pair[1].expression).evaluate({}).value
+    away = f"{share:g} * {pair[1].factor}"
+    if isinstance(number, int | float):
+        away = number_text(share * abs(number))
+    near = f"abs({pair[0].expression} - {pair[1].factor}) <= {away}"
+    return f"not ({near})" if found["not"] else near
 
 
 def _apart(asked: AskedWords, found: re.Match[str]) -> str | None:

@@ -16,6 +16,7 @@ from tacgrasp.lessons.dialogue.calculations.asked import AskedWords
 from tacgrasp.lessons.dialogue.calculations.phrases import AGAINST, is_made_of, sign_of
 from tacgrasp.lessons.dialogue.calculations.quantity_names import UNIT
 from tacgrasp.lessons.dialogue.calculations.terms import Term
+from tacgrasp.lessons.dialogue.conditions import ABOUT, number_text
 from tacgrasp.lessons.dialogue.meaning import Calculated
 from tacgrasp.lessons.dialogue.quantities import MEAN_PRESSURE, UNITS
 
@@ -134,6 +135,10 @@ _SUPPOSES = re.compile(r"\b(?:doubl\w+|halv\w+|half|twice|tripl\w+|times)\b")
 """What makes another pressure of the force or the area that is felt."""
 
 _AGAINST_PRESSURE = re.compile(rf"\b(?:{AGAINST}) (?P<by>#\d+ (?:{UNIT}))(?= |$)")
+_ABOUT_PRESSURE = re.compile(
+    rf"(?:is|are|would) (?:the |this |that )?(?:(?:mean|average|contact) )?pressure(?: not)?(?: "
+    rf"(?:about|around|roughly|approximately|exactly|close to|near))? (?P<by>#\d+ (?:{UNIT}))"
+)
 _BESIDE_PRESSURE = re.compile(r"\b(?:pressure|push\w*|press\w*|force|squeez\w*|load|stress)\b")
 
 
@@ -157,8 +162,15 @@ def pressure(asked: AskedWords) -> Term | None:
 
 
 def pressure_check(asked: AskedWords) -> Calculated | None:
-    """Whether the force over the area of contact is more or less than so much."""
+    """Whether the force over the area of contact is more or less than so much, or about that."""
     found = _AGAINST_PRESSURE.search(asked.words)
+    if about := _ABOUT_PRESSURE.fullmatch(asked.words):
+        bound = asked.term(about["by"])
+        if bound is None or bound.dimension != "pressure":
+            return None
+        away = number_text(ABOUT * float(bound.expression))
+        near = f"abs({MEAN_PRESSURE} - {bound.factor}) <= {away}"
+        return Calculated(truth=f"not ({near})" if " not" in about[0] else near, unit=None)
     if found is None or len(asked.numbers) > 1 or _ELSEWHERE.search(asked.words):
         return None
     if not _BESIDE_PRESSURE.search(asked.words):

@@ -101,7 +101,8 @@ _PER_NEWTON = re.compile(
 _SHORT = re.compile(r"\b(?:short|shy|lack|lacking|missing|shortfall)\b")
 _FACTOR = re.compile(
     r"(?:factor of safety|safety factor|holding factor|safety ratio|margin of safety as a factor|"
-    r"how many times (?:over|as much as needed|its weight))"
+    r"how many times (?:over|as much as needed|its weight|(?:(?:the|what is) )?"
+    r"(?:needed|required|necessary) force|the force (?:that is )?(?:needed|required)))"
 )
 
 
@@ -225,11 +226,15 @@ def safety_factor(asked: AskedWords) -> Term | None:
 
 
 def stays(asked: AskedWords) -> Calculated | None:
-    """Whether the object stays in the grip under a supposed force; None of other questions."""
+    """Whether the object stays in the grip under a supposed force or mass; None of others."""
     found = _STAYS.fullmatch(asked.words)
-    if found is None or asked.subject is None or asked.base != "force_n":
+    if found is None or asked.subject is None:
         return None
     sign = "<" if found["slips"] else ">="
+    if asked.subject.dimension == "mass":
+        return Calculated(truth=f"force_n {sign} gram_n * {asked.subject.factor}", unit=None)
+    if asked.base != "force_n":
+        return None
     return Calculated(truth=f"{asked.subject.factor} {sign} gram_n * mass_g", unit=None)
 
 
@@ -270,10 +275,12 @@ def needs_more(asked: AskedWords) -> Calculated | None:
 
 def _holds_it(asked: AskedWords, mass: Term) -> Calculated | None:
     """Whether the felt force surely holds a supposed mass."""
-    used = rf"(?:{_FILL}|{_SURE}|{_HOLD}|{_LOAD}|{_FORCE}|{THING})"
+    used = rf"(?:{_FILL}|{_SURE}|{_HOLD}|{_LOAD}|{_FORCE}|{THING}|enough|sufficient)"
     if re.search(r"\b(?:slip|slips|slipping|drop|dropping|fail|risk|not|too)\b", asked.words):
         return None
-    if not re.search(rf"\b(?:{_SURE}|hold|held|kept|carry|carried|enough)\b", asked.words):
+    if not re.search(
+        rf"\b(?:{_SURE}|hold|held|kept|keep|carry|carried|lift|bear|enough)\b", asked.words
+    ):
         return None
     if not is_made_of(asked.words, used):
         return None
@@ -301,9 +308,18 @@ _LEAVES_ENOUGH = re.compile(
 )
 
 
+_HOLDS_IT = re.compile(
+    rf"(?:would|will|can|could|does|do) (?:a |the )?(?:grip of |force of )?(?P<force>.+?)"
+    rf"(?: (?:still|even|also|be able to|{_SURE}))* (?:hold|carry|lift|keep|secure) "
+    rf"(?:it|this|that|them|(?:the |this |that )?{THING}|(?P<mass>#\d+ \w+))(?: {_SURE}| for sure)?"
+)
+"""'Would half the force hold it?'"""
+
+
 def suffices(asked: AskedWords) -> Calculated | None:
     """Whether a named force surely holds the object; None of other questions."""
-    found = _SUFFICES.fullmatch(asked.words) or _LEAVES_ENOUGH.fullmatch(asked.words)
+    patterns = (_SUFFICES, _LEAVES_ENOUGH, _HOLDS_IT)
+    found = next(filter(None, (each.fullmatch(asked.words) for each in patterns)), None)
     force = asked.term(found["force"]) if found else None
     if found is None or force is None or force.dimension != "force":
         return None

@@ -154,6 +154,9 @@ _NAMED: Mapping[str, tuple[str, str]] = {
     r"carries|carry|bears?|supports?)|what (?:it|the grip|this grip) (?:surely|safely) holds": (
         "holds_g", "mass",
     ),
+    rf"(?:gap|room|distance|difference|space) between (?:the )?(?:top of (?:the )?)?{_BAND_NAME} "
+    r"and (?:the )?limit": ("limit_n - band_high_n", "force"),
+    r"safety factor|factor of safety|holding factor": ("holds_g / mass_g", "ratio"),
     r"(?:headroom|margin|room|reserve|leeway|slack)(?: left)? (?:to|below|under|before|until|"
     r"up to) "
     r"(?:the )?(?:force )?limit|headroom": ("limit_n - force_n", "force"),

@@ -66,6 +66,15 @@ _EXTRA = re.compile(
 _DOING = re.compile(
     r"(?:would|will|does|could|might|can) (?P<all>(?:\w+ing|twice|double|half|an?|another) .+)"
 )
+_HOLDING_MORE = re.compile(
+    rf"(?P<rest>(?:is|are|would|will|does|do|can|could) (?:.+ )?(?:hold|carry|lift|support|bear|"
+    rf"keep|handle|manage|enough (?:for|to (?:hold|carry|lift))))(?: it)? (?P<change>"
+    rf"(?:plus|another|an? (?:extra|additional|further)|half|twice|double|two|thrice|triple|three|"
+    rf"four|quadruple|(?:an? )?#\d+ (?:times|x|fold|of (?:these|them|those)|"
+    rf"(?:{UNIT}) (?:more|extra)))\b.*)"
+)
+"""'Would it hold twice the mass?', 'does it hold another 20 g?'."""
+
 _SO_DONE = re.compile(
     r" (?=(?:be|put|bring|take|push|get|send|land|carry|leave|keep|make|break|exceed|violate|"
     r"breach|reach|bust|cross|overshoot|still|go|blow|lift|tip|run|suffice|drop|knock|pull|set|"
@@ -100,6 +109,12 @@ _EXCEEDED = re.compile(
     r"surpassed|overstepped)"
 )
 """'Would the limit be breached', which asks whether it would exceed the limit."""
+
+_MAKES = re.compile(r"(?<=^would it) (?:make|let) (?:it|us|the \w+)(?= )")
+_OVER_IT = re.compile(
+    r"((?:is|are|would|will) (?:it|we|you|i|this|that)(?: be)?(?: still)? (?:over|above|past|"
+    r"beyond|under|below|within))"
+)
 
 _HAVING = re.compile(
     r"^(?:(?:we|i|you|it) )?(?:(?:had|have|got) )?(?=#\d+ \w+ (?:more|less|extra)$)"
@@ -163,6 +178,8 @@ def supposed(asked: AskedWords) -> Calculated | None:
             continue
         base = _base(asked, told)
         rest = _EXCEEDED.sub(r"would it exceed the \g<bound>", rest)
+        if base == "limit_n" and _OVER_IT.fullmatch(rest):
+            rest = f"{rest} the limit"
         after = asked.about(told, rest, base)
         rest = _THEN.sub("", rest)
         if not rest or _is_result(told, rest):
@@ -220,10 +237,14 @@ def _base(asked: AskedWords, told: Term) -> str:
 def _clauses(words: str) -> Iterator[tuple[str, str]]:
     """What a question supposes, and what it asks, in every way it may be divided so."""
     if found := _EXTRA.fullmatch(words):
-        yield found["change"], f"would it {found['rest']}"
+        yield found["change"], _MAKES.sub("", f"would it {found['rest']}")
+    if found := _HOLDING_MORE.fullmatch(words):
+        is_count = re.match(r"#\d+ of", found["change"])
+        yield f"{'holding ' if is_count else ''}{found['change']}", found["rest"]
     if found := _DOING.fullmatch(words):
         for joint in _SO_DONE.finditer(found["all"]):
-            yield _done(found["all"][: joint.start()]), f"would it{found['all'][joint.start() :]}"
+            rest = _MAKES.sub("", f"would it{found['all'][joint.start() :]}")
+            yield _done(found["all"][: joint.start()]), rest
     if found := _IMPERATIVE.fullmatch(words):
         done = f"i {found['change']}"
         yield done, ""

@@ -2,6 +2,7 @@
 
     Say 'stop' if the force is past its limit and 'go' if it isn't.
     If it is deeper than 1 mm answer A, otherwise B.
+    If the force is above 3 N, say STOP.                    else that it is not so
 
 Words with values of their own ('light below 1 N') are ``tacgrasp.lessons.dialogue.choices.bins``.
 
@@ -19,7 +20,7 @@ from tacgrasp.lessons.dialogue.meaning import Calculated
 
 _SAY = (
     r"(?:say|reply|answer|respond|write|print|return|output|put down|tell me|give me|call it|put|"
-    r"shout|tick|flag)(?: with| me| only| just)?"
+    r"shout|yell|show|display|signal|report|tick|flag)(?: with| me| only| just)?"
 )
 _QUOTE = "['\"“”‘’`]?"
 _LAST = (
@@ -44,6 +45,23 @@ _REPLIES = tuple(
         rf"unless\s+(?P<unless>.+?),?\s+(?:then\s+)?{_SAY}\s+{_WORD}{_OTHERWISE}",
     )
 )
+_CODE = (
+    r"(?P<a>(?-i:[A-Z][A-Z-]+)|['\"“‘`][\w-]+(?: [\w-]+)?['\"”’`]|(?!(?:the|an?|its?|how|what|"
+    r"which|where|whether|why|if|me|us|something|anything|nothing|so|that|this|depth|force|area|shape|"
+    r"texture|position|mass|weight|limit|band|advice|one|hello|please)\b)[\w-]+)"
+)
+_ALONE = tuple(
+    re.compile(pattern, re.I | re.S)
+    for pattern in (
+        rf"(?:please\s+)?{_SAY}\s+{_CODE}\s+{_WHEN}\s+(?P<if>.+)",
+        rf"{_WHEN}\s+(?P<if>.+?),?\s+(?:then\s+)?(?:please\s+)?{_SAY}\s+{_CODE}[.?!\s]*",
+    )
+)
+"""One word under a condition, and none otherwise."""
+
+NOT_SO = "not so"
+"""What is said otherwise."""
+
 _WHICH = re.compile(
     r"(?<=[.?!'\"”’])\s*(?:which(?: (?:is it|one|word|do you say))?|what is it|what do you say|"
     rf"{_QUOTE}[\w-]+{_QUOTE} or {_QUOTE}[\w-]+{_QUOTE})\s*\?\s*$",
@@ -86,11 +104,21 @@ def replied(question: str) -> Calculated | None:
         return _reply(found["same"], condition, other) if condition else None
     found = _TWO.fullmatch(text)
     if found is None or not (condition := condition_of_statement(found["if"])):
-        return None
+        return _replied_alone(text)
     other = re.sub(r"\bit['’]s\b", "it is", found["else"].strip(" .?!"))
     if not condition_of_statement(other):
         return None
     return _reply(found["a"], condition, found["b"])
+
+
+def _replied_alone(text: str) -> Calculated | None:
+    """The word that is to be said under a condition, where none is named for the other case."""
+    for pattern in _ALONE:
+        found = pattern.fullmatch(text)
+        if found and (condition := condition_of_statement(found["if"])):
+            word = found["a"].strip("'\"“”‘’`")
+            return _reply(word, condition, "no" if word.lower() in _YES else NOT_SO)
+    return None
 
 
 def _reply(first: str, condition: str, second: str) -> Calculated | None:

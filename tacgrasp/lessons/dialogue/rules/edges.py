@@ -53,6 +53,12 @@ _MEETS_THE_EDGE = re.compile(
 _IS_NEAR = re.compile(
     rf"\b(?:near|nearby|close to|next to|beside|adjacent to|at)\b(?: \w+){{0,2}} {_EDGE}\b"
 )
+_NEAR_ANY = re.compile(
+    rf"(?:is|are|does|do) (?:it|we|(?:the|our|this) (?:contact|object|imprint|patch|print|touch))"
+    rf"(?: (?:very|too|not|anywhere|lie|sit|come))* (?:near|close to|next to|beside) "
+    rf"(?:the|an|any|some|its|one) (?:(?:{_PAD}|outer)(?:'s)? )?{_EDGE}"
+    rf"(?: of (?:the|our|your) {_PAD})?"
+)
 _IS_AWAY = re.compile(rf"\b(?:away|far|clear) from\b(?: \w+){{0,2}} {_EDGE}\b")
 _WHICH = re.compile(
     rf"\b(?:which|what) (?:{_EDGE}|sides?)\b|\bwhere is it (?:cut|clipped|cropped)\b"
@@ -93,6 +99,8 @@ def edge_query(words: str) -> str:
         return ""
     named = [side for side, pattern in _SIDES.items() if pattern.search(words)]
     denied = "not " if _DENIED.search(words) else ""
+    if _NEAR_ANY.fullmatch(words):
+        return f"check {'' if denied else 'not '}position centered."
     if not named:
         return f"check {denied}cut." if _MEETS_THE_EDGE.fullmatch(words) else ""
     if _IS_CUT.search(words):

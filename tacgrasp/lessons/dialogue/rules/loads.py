@@ -64,6 +64,15 @@ _SURELY_NEEDED = re.compile(
     r"will|does|do|it|we|i))*(?: (?:enough|needed|required|sufficient|necessary|need|take|takes|"
     r"it takes))"
 )
+_LEAST_TO_HOLD = re.compile(
+    r"(?:what is |give me |tell me )?(?:the )?(?:minimum|min|least|lowest|smallest|weakest) "
+    r"(?:(?:grip|gripping|holding|clamping) )?(?:force|grip|squeeze)(?: (?:that|which|i|we|you|it|"
+    r"is|need|needs|needed|required|necessary|takes|would|will|can|still|surely|safely|to|just|"
+    r"for))* "
+    r"(?:hold|holds|holding|lift|lifts|lifting|carry|carries|keep|keeps) "
+    r"(?:it|this|that|the (?:object|thing|part|berry|item))"
+    r"(?: (?:from slipping|up|without slipping|without dropping it|surely|safely))?"
+)
 _OF_BOUNDS = re.compile(
     r"\b(?:limit|band|heaviest|mass|grams?|load|more|less|still|missing|left)\b"
 )
@@ -90,6 +99,7 @@ def load_query(words: str) -> str:
     masses = [place for place, unit in enumerate(units, start=1) if unit in _MASS_UNITS]
     if _OTHERWISE.search(words):
         return ""
+    words = re.sub(rf"^(?:at|with) (?=# (?:{'|'.join(_FORCE_UNITS)})\b)", "", words)
     if len(units) == 2 and len(forces) == len(masses) == 1 and _VERB.match(words):
         mass, force = masses[0], forces[0]
         tested = f"needed #{mass} {_MASS_UNITS[units[mass - 1]]}"
@@ -102,6 +112,8 @@ def load_query(words: str) -> str:
     asks_if_held = _WORKS.fullmatch(words) or _ENOUGH_FOR.fullmatch(words)
     if len(masses) == 1 and not any(units[: masses[0] - 1]) and asks_if_held:
         return f"check stays #{masses[0]} {_MASS_UNITS[units[masses[0] - 1]]}."
+    if not units and _LEAST_TO_HOLD.fullmatch(words):
+        return "amount needed N."
     if not units and _SURELY_NEEDED.search(words) and not _OF_BOUNDS.search(words):
         return "amount needed N."
     if not units and _ENOUGH_TO_HOLD.fullmatch(words):

@@ -34,10 +34,15 @@ _PATTERNS = (
     r"\b(?:limit|weight|mass|area|pad|contact|distance|time|friction)\b.{0,20}\b(?:doubled|"
     r"halved|tripled|"
     r"divided by two|twice|half|\d times)\b",
+    # the sensor and the gripper themselves
+    r"\b(?:resolution|(?:sampling|frame) rate)\b",
+    r"\b(?:gripper|jaws?|fingers|hand)\b.*\b(?:width|wide|open|opening|stroke|apart)\b|"
+    r"\b(?:width|opening|stroke) of (?:the|your|this|our|my) (?:gripper|jaws?|fingers|hand)\b",
     # sums of a felt and a named number
     rf"{_NUMBER}\s*(?:%|\w+)?\s+(?:more|extra|less|additional|further)\b(?! than)",
     rf"\badd(?:ing|ed)? (?:another |an extra )?{_NUMBER}",
-    rf"\b(?:increas|rais|reduc|lower)(?:e|es|ed|ing)? (?:\w+ ){{0,3}}?by {_NUMBER}",
+    rf"\b(?:increas|rais|reduc|lower|tighten|loosen|turn)(?:e|es|ed|ing)? "
+    rf"(?:\w+ ){{0,3}}?by {_NUMBER}",
     # a named force against the band, and distances from the band's ends
     rf"^(?:is|are|would|will|does|do|can) {_NUMBER} ?\w+ (?:be |lie |fall )?"
     r"(?:with)?in(?:side)? (?:the|our) (?:\w+ )?(?:band|window|range)",

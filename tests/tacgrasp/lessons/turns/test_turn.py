@@ -434,7 +434,22 @@ def test_a_number_that_is_told_is_another_one_in_a_follow_up():
         ),
         (("What is the lowest force of the band?", "And the highest?"), "amount band_high N."),
         (("How deep is it, in a word?", "Same for the area."), "choice area in a word."),
+        (
+            ("Is that enough for twice the mass?", "What grip is needed if it is 3 times heavier?"),
+            "calculate gram_n * 3 * mass_g in N.",
+        ),
     ],
 )
 def test_what_testers_said_in_a_row(questions, query):
     assert last_turn(*questions).read.query == query
+
+
+@pytest.mark.parametrize(
+    ("question", "query"),
+    [
+        ("If the band were 2 to 4 N, would we be in it?", "band_low_n <= force_n <= band_high_n"),
+        ("If the limit is 2 N, are we over it?", "force_n > 2"),
+    ],
+)
+def test_what_is_supposed_is_what_a_pronoun_behind_it_means(question, query):
+    assert query in last_turn(question).read.query

@@ -15,6 +15,8 @@ from tests.fakes.question_scenes import ASIDE, HELD, UNTOUCHED, contact
     ("question", "query"),
     [
         ("Is it touching the left edge?", "check cut left."),
+        ("Is the contact near an edge?", "check not position centered."),
+        ("Is it not close to any border of the pad?", "check position centered."),
         ("Does it reach the top edge of the pad?", "check cut top."),
         ("Is the contact cut off on the right?", "check cut right."),
         ("It is cut off on the left, right?", "check cut left."),

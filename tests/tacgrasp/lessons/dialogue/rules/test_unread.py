@@ -21,6 +21,22 @@ def test_what_nothing_reads_ends_and_is_beyond(question):
     assert is_beyond(question)
 
 
-@pytest.mark.parametrize("question", ["Is the force more than 5 N?", "How deep is it?"])
+@pytest.mark.parametrize(
+    "question",
+    [
+        "What's the width of the gripper?",
+        "If I tighten by 1 N, is it too much?",
+        "How wide is the gripper open?",
+        "What is the resolution of the sensor?",
+    ],
+)
+def test_what_no_query_has_is_beyond(question):
+    assert is_beyond(question)
+
+
+@pytest.mark.parametrize(
+    "question",
+    ["Is the force more than 5 N?", "How deep is it?", "How wide is the band?"],
+)
 def test_what_is_read_is_not_beyond(question):
     assert not is_beyond(question)
