@@ -28,8 +28,13 @@ hold against it they are rare."""
 
 _SHORT_WORDS = frozenset(
     "a i an as at be by do go in is it me my no of on or so to up us we ok "  # noqa: SIM905
-    "n mn cn g kg mm cm µm lb oz".split(" ")
+    "n mn cn g kg mm cm µm lb oz x y z f fn fx fy fz".split(" ")
 )
+
+_QUANTITIES = frozenset(
+    ("torque", "torques", "friction", "stiffness", "shear", "temperature", "pressure", "kpa")
+)
+"""What somebody may ask for in one word, whether touch knows it or not."""
 
 
 def check_question(text: str, words: Words | None) -> None:
@@ -62,4 +67,4 @@ def check_question(text: str, words: Words | None) -> None:
 def _is_known(word: str, words: Words) -> bool:
     if len(word) <= 2:
         return word in _SHORT_WORDS  # pieces of longer words are tokens too
-    return words.has_token(word) or words.has_token(word.capitalize())
+    return word in _QUANTITIES or words.has_token(word) or words.has_token(word.capitalize())

@@ -22,6 +22,9 @@ def words() -> Words:
         "hows the weather",
         "is it rough",
         "Is 0.5 N ok for 30 g?",
+        "Torque?",
+        "Is x positive?",
+        "2<F<3?",
     ],
 )
 def test_plain_english_with_rare_words_is_for_the_model_to_answer(

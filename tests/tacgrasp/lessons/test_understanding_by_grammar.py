@@ -112,6 +112,10 @@ class Refusing:
             "calculate position in ('top-left', 'top-right', 'bottom-left', 'bottom-right').",
         ),
         (
+            "Is the contact at the corner?",
+            "calculate position in ['top-left', 'top-right', 'bottom-left', 'bottom-right'].",
+        ),
+        (
             "Which corner of the pad is it closest to?",
             "calculate ('top-left' if y_mm > 0 else 'bottom-left') if x_mm < 0 else "
             "('top-right' if y_mm > 0 else 'bottom-right').",

@@ -62,7 +62,7 @@ _ONE_QUADRANT = re.compile(
 _CORNER_FIELD = re.compile(
     r"\b(?:one|any) of (?:the |its )?(?:four |4 )?corner (?:fields?|regions?|cells?|bits?|parts?|"
     r"squares?|zones?|areas?)\b|\bin (?:a|any) corner (?:field|region|cell|square|zone|area)\b|"
-    r"\bin (?:a|any|the) corner$"
+    r"\b(?:in|at) (?:a|any|the) corner$"
 )
 _MIDDLE_FIELD = re.compile(
     r"\bin (?:the )?(?:very )?(?:middle|cent(?:er|re)|central) (?:field|cell|square|zone|region|"
