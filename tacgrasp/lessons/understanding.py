@@ -56,7 +56,7 @@ from tacgrasp.lessons.dialogue.plainer import (
     in_words,
     is_denied_first,
     plainer,
-    without_thousands,
+    with_plain_numbers,
 )
 from tacgrasp.lessons.dialogue.query import (
     asked_text,
@@ -173,7 +173,7 @@ def understood_by_grammar(question: str, before: str = "") -> ReadQuestion | Non
     Some of its wordings (``MOST_JOINED`` at most) that are joined by a comma, 'and' or a question
     mark are asked together.
     """
-    question = compared_aright(without_thousands(question))
+    question = compared_aright(with_plain_numbers(question))
     if rounding := rounding_of(question):
         return _rounded(understood_by_grammar(rounding.question, before), rounding)
     if stated := denied_statement(question):

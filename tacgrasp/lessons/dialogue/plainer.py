@@ -332,9 +332,24 @@ _THOUSANDS = re.compile(
 """'1,200 g', '3 500 mN'; '1,200 mm' is a decimal comma."""
 
 
-def without_thousands(text: str) -> str:
-    """A text whose numbers have nothing between their thousands: '1200 g' for '1,200 g'."""
-    return _THOUSANDS.sub(lambda number: re.sub(r"\D", "", number[0]), text)
+_SECOND_BOUND = re.compile(
+    rf"(?P<first>\d ?(?P<unit>[mc]m(?:²|2)|{_UNIT_NAME}|%|per ?cent)(?:,? (?:and|but|or)|,)"
+    r"(?: (?:also|still|yet|is|it is|is it|not))* (?:more|less|greater|smaller|fewer|higher|lower|"
+    r"deeper|shallower|larger|bigger|heavier|lighter|stronger|weaker|over|above|under|below|beyond|"
+    r"exceeding|at least|at most|no more|no less|up to)(?: than)? (?:about )?\d+(?:\.\d+)?)"
+    r"(?=\s*(?:$|[?!;]|\.(?!\d)|,? (?:right|or not|yes|is it|isn't it)\b))",
+    re.I,
+)
+"""'Less than 500 microns and more than 300'."""
+
+
+def with_plain_numbers(text: str) -> str:
+    """A text whose numbers have nothing between their thousands, and a second bound its unit.
+
+    '1200 g' for '1,200 g', 'below 500 µm and above 300 µm' for 'below 500 µm and above 300'.
+    """
+    text = _THOUSANDS.sub(lambda number: re.sub(r"\D", "", number[0]), text)
+    return _SECOND_BOUND.sub(r"\g<first> \g<unit>", text)
 
 
 def plainer(question: str) -> str:

@@ -68,7 +68,7 @@ from tacgrasp.lessons.dialogue.meaning import (
     Why,
 )
 from tacgrasp.lessons.dialogue.plain_words import plain_text
-from tacgrasp.lessons.dialogue.plainer import without_thousands
+from tacgrasp.lessons.dialogue.plainer import with_plain_numbers
 from tacgrasp.lessons.dialogue.quantities import TIMES, UNITS, can_be_in
 from tacgrasp.lessons.dialogue.subjects import RULED_SUBJECTS, SUBJECTS
 from tacgrasp.lessons.dialogue.written_units import with_counted_parts
@@ -203,7 +203,7 @@ def asked_text(question: str, before: str = "") -> AskedText:
     Numbers in words are numbers too: 'half a newton', 'a third of the pad'. Multiples are not:
     'three times' is 'thrice'.
     """
-    question = without_thousands(question)
+    question = with_plain_numbers(question)
     lowered = with_counted_parts(_ONE_WORD.sub("a", question.lower()))
     lowered = _SHARE.sub(lambda match: f"{_SHARES[match[1]]} percent", lowered)
     for multiple, word in _MULTIPLES.items():

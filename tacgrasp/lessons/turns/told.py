@@ -13,7 +13,7 @@ import re
 from dataclasses import dataclass, replace
 
 from tacgrasp.lessons.dialogue.meaning import Amount, Meaning, Several, names_of
-from tacgrasp.lessons.dialogue.plainer import AUXILIARY, without_thousands
+from tacgrasp.lessons.dialogue.plainer import AUXILIARY, with_plain_numbers
 from tacgrasp.lessons.dialogue.scene import AskedScene, band_contract
 from tacgrasp.lessons.turns.units import dimension_of, in_own_unit
 
@@ -106,7 +106,7 @@ def told_in(text: str, about: Meaning | None = None) -> tuple[Told, str] | None:
         text: The text.
         about: What was asked for, or told, before it: what a correction is of.
     """
-    text = without_thousands(text.strip())
+    text = with_plain_numbers(text.strip())
     if _WHAT_IF.match(text):
         text = text.rstrip("? ")
     corrected = _CORRECTED.fullmatch(text)

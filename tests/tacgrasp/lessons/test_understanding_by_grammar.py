@@ -597,6 +597,11 @@ _READ = {
         "calculate 'lower' if abs(force_n - band_low_n) < abs(force_n - band_high_n) else 'upper'."
     ),
     "How far is x from the left border?": "calculate pad_width_mm / 2 + x_mm in mm.",
+    "How hard can I squeeze it before it bruises?": "unknown trait.",
+    "Is the depth less than 500 microns and more than 300?": (
+        "check depth < #1 µm; check depth > #2 µm."
+    ),
+    "Is it deeper than 300 microns but less than 500?": "check depth #1 - #2 µm.",
 }
 
 

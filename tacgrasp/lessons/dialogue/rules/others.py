@@ -76,7 +76,10 @@ _DOUBT = re.compile(
 _REASONS = {"location": "position", "surface": "texture", "force": "felt", "area": "felt"}
 _BREAKS_AT = re.compile(
     r"(?:(?:what|which|how much|how many) (?:force|squeeze|newtons?|load|grip|n)|"
-    r"(?:at|with|from) (?:what|which) (?:force|squeeze|load|grip|newtons?)) .*\b"
+    r"(?:at|with|from) (?:what|which) (?:force|squeeze|load|grip|newtons?)|"
+    r"how (?:hard|firmly|strongly|tight(?:ly)?|much harder) (?:can|may|could|might|should) "
+    r"(?:i|we|you|it|one)"
+    r"(?=.*\b(?:before|until|without)\b)) .*\b"
     r"(?:bruis|crush|break|burst|crack|squash|ruptur|split)\w*(?: (?:it|this|that|the \w+))?"
 )
 """'What force would bruise it?'"""
