@@ -56,29 +56,40 @@ def calibrate_heads(
     layout = encoder.config.variant.layout
     chosen = np.random.default_rng([run.seed, 71]).permutation(held_out)[:CALIBRATION_CONTACTS]
     encoder.eval(), heads.eval()
-    varied, usual = (
-        _read(encoder, Sampler(data, noise, seed=run.seed + 1, layout=layout), chosen)
-        for noise in (augmentation, NOISY)
-    )
-    heads.calibrate(varied[:2], usual[:2])
-    heads.calibrate_contradiction(*varied)
+    measured_mm: list[float] = []
+    sampler = Sampler(data, augmentation, seed=run.seed + 1, layout=layout)
+    varied = _read(encoder, sampler, chosen, measured_mm)
+    sampler = Sampler(data, NOISY, seed=run.seed + 1, layout=layout)
+    heads.calibrate(varied, _read(encoder, sampler, chosen))
+    heads.calibrate_contradiction(*varied, torch.tensor(measured_mm))
 
 
 def _read(
-    encoder: TactileEncoder, sampler: Sampler, chosen: NDArray[np.int64]
-) -> tuple[Tensor, Targets, Tensor]:
-    """Pooled tokens (N, 2 C), labels and measured depths (N,) [mm] of contacts, in their order."""
-    pooled, labels, measured_mm = [], [], []
+    encoder: TactileEncoder,
+    sampler: Sampler,
+    chosen: NDArray[np.int64],
+    measured_mm: list[float] | None = None,
+) -> tuple[Tensor, Targets]:
+    """Pooled tokens (N, 2 C) and labels of contacts, in their order.
+
+    Args:
+        encoder: The encoder.
+        sampler: Draws their noise.
+        chosen: Their numbers.
+        measured_mm: Receives their depths, measured directly, which takes longer than the encoder.
+    """
+    pooled, labels = [], []
     with torch.no_grad():
         for step, first in enumerate(range(0, CALIBRATION_VIEWS * len(chosen), BATCH)):
             drawn = chosen[np.arange(first, first + BATCH) % len(chosen)]
             batch = sampler.batch(drawn, step)
             pooled.append(encoder(torch.from_numpy(batch.points)).pooled)
             labels.append(targets(batch.states))
-            clouds = (batch.cloud(row) for row in range(len(drawn)))
-            measured_mm += [contact_state(each, in_contact=True).depth_mm for each in clouds]
+            if measured_mm is not None:
+                clouds = (batch.cloud(row) for row in range(len(drawn)))
+                measured_mm += [contact_state(each, in_contact=True).depth_mm for each in clouds]
     true = Targets(*(torch.cat(parts) for parts in zip(*labels, strict=True)))
-    return torch.cat(pooled), true, torch.tensor(measured_mm)
+    return torch.cat(pooled), true
 
 
 def fit_force(

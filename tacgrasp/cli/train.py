@@ -32,6 +32,7 @@ from tacgrasp.training.requests import (
 )
 
 if TYPE_CHECKING:
+    from cltp.train.stage import ProgressReport
     from tacgrasp.pretraining.methods import PretrainingRun
 
 
@@ -238,8 +239,8 @@ class BaseFlags:
 
 
 @dataclass(frozen=True)
-class TrainForceFlags:
-    """Fit what reads the force of a contact from the mechanics of the gel; the rest stays.
+class RefitFlags:
+    """What is fitted after the training of an encoder, fitted anew.
 
     Attributes:
         weights: Folder of weights, or of one method.
@@ -258,50 +259,42 @@ class TrainForceFlags:
         import torch
 
         from cltp.train.progress import Bar
-        from tacgrasp.training.force import train_force
 
         if self.threads is not None:
             torch.set_num_threads(self.threads)
         with Bar() as report:
-            train_force(self.weights, self.data, command, seed=self.seed, report=report)
+            self._fit(command, report)
+
+    def _fit(self, command: str, report: ProgressReport) -> None:
+        raise NotImplementedError
 
 
 @dataclass(frozen=True)
-class TrainIntervalsFlags:
+class TrainForceFlags(RefitFlags):
+    """Fit what reads the force of a contact from the mechanics of the gel; the rest stays."""
+
+    def _fit(self, command: str, report: ProgressReport) -> None:
+        from tacgrasp.training.force import train_force
+
+        train_force(self.weights, self.data, command, seed=self.seed, report=report)
+
+
+@dataclass(frozen=True)
+class TrainIntervalsFlags(RefitFlags):
     """Set the intervals of weights' numbers anew; what is read stays as it is.
 
     Attributes:
-        weights: Folder of weights, or of one method.
-        data: Folder of contacts, which must exist.
         coarse: Fraction of contacts that are felt by a coarse sensor, as in their training.
-        seed: Random seed of contacts, noise and fit.
-        threads: Threads of torch; one for each core when not given.
     """
 
-    weights: Path
-    data: Path = Path("runs/full")
     coarse: float = 0.0
-    seed: int = 0
-    threads: int | None = None
 
-    def train(self, command: str) -> None:
-        """Fit and write."""
-        import torch
-
-        from cltp.train.progress import Bar
+    def _fit(self, command: str, report: ProgressReport) -> None:
         from tacgrasp.training.force import train_intervals
 
-        if self.threads is not None:
-            torch.set_num_threads(self.threads)
-        with Bar() as report:
-            train_intervals(
-                self.weights,
-                self.data,
-                command,
-                coarse=self.coarse,
-                seed=self.seed,
-                report=report,
-            )
+        train_intervals(
+            self.weights, self.data, command, coarse=self.coarse, seed=self.seed, report=report
+        )
 
 
 @dataclass(frozen=True)
@@ -467,7 +460,7 @@ def main(argv: Sequence[str]) -> int:
     if isinstance(flags, MethodsFlags):
         flags.train(stage, command)
         return 0
-    if isinstance(flags, TrainForceFlags | TrainIntervalsFlags):
+    if isinstance(flags, RefitFlags):
         flags.train(command)
         return 0
     if isinstance(flags, TrainQueriesFlags | TrainSlipFlags | TrainReserveFlags):

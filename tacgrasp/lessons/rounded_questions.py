@@ -92,4 +92,4 @@ def _step_of(found: re.Match[str]) -> float:
 
 
 def _plain(unit: str) -> str:
-    return {"%": "percent"}.get(unit, unit.lower())
+    return "percent" if unit == "%" else unit.lower()

@@ -35,7 +35,7 @@ from tacgrasp.lessons.dialogue.clauses.replies import replied
 from tacgrasp.lessons.dialogue.clauses.speech import asked_in_speech
 from tacgrasp.lessons.dialogue.clauses.verdicts import is_doubted_statement
 from tacgrasp.lessons.dialogue.clauses.worded_amounts import in_class_words, without_remark
-from tacgrasp.lessons.dialogue.conditions import check_of
+from tacgrasp.lessons.dialogue.conditions import check_of, number_text
 from tacgrasp.lessons.dialogue.expression import Expression
 from tacgrasp.lessons.dialogue.families.catalogue import understand
 from tacgrasp.lessons.dialogue.families.misspelled import (
@@ -366,7 +366,7 @@ def _rounded(read: ReadQuestion | None, how: Rounding) -> ReadQuestion | None:
     if read is None or not isinstance(read.meaning, Amount | Calculated) or not step:
         return read
     meaning = replace(read.meaning, step=step)
-    return read._replace(query=f"{read.query[:-1]} to {step:.6g}.", meaning=meaning)
+    return read._replace(query=f"{read.query[:-1]} to {number_text(step)}.", meaning=meaning)
 
 
 def _as_told(query: str, words: str) -> str:

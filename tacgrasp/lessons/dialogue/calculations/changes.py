@@ -84,8 +84,9 @@ _ANOTHER = re.compile(
     rf"(?:(?:the|my|our) )?(?P<a>{_GRIP}))?(?: on top(?: of .+)?| on (?:it|this|that|the \w+))?|"
     rf"plus (?:another )?(?P<plus>#\d+ (?:{_GRAMS}))(?: (?:more|extra|on (?:it|top)))*"
 )
+_SAID_TIMES = r"half|twice|double|two times|thrice|triple|three times|four times|quadruple"
 _AT_TIMES = re.compile(
-    rf"{_WITH}(?P<n>half|twice|double|two times|thrice|triple|three times|four times|quadruple) "
+    rf"{_WITH}(?P<n>{_SAID_TIMES}) "
     rf"(?:as (?:much|hard|firm|strong)|(?:the|our|my|this|that) (?:(?:present|current|same) )?"
     rf"(?P<a>{_GRIP}))(?: .{{0,12}}now)?"
 )
@@ -155,7 +156,7 @@ _OFF = re.compile(
 )
 _GRIPPED_TIMES = re.compile(
     rf"(?:{_WHO}|it|the \w+) (?:were |was |is )?{_PUSHED}(?: (?:it|on it|in|with))* "
-    rf"(?P<n>half|twice|double|two times|thrice|triple|three times|four times|quadruple)"
+    rf"(?P<n>{_SAID_TIMES})"
     rf"(?: (?:as )?(?:hard|firm|firmly|strong|strongly|tight|tightly|much|deep|deeply|far)|"
     rf" (?:the|that|this|our) {_GRIP})?"
 )
@@ -202,10 +203,7 @@ _WEIGHED = re.compile(
     r"(?:you|we|i) think))?"
 )
 _HELD = rf"(?:it|this|that|they|(?:(?:the|this|that|my|our) )?(?:told |held )?{THING})"
-_TIMES_AS = (
-    r"(?P<n>half|twice|double|two times|thrice|triple|three times|four times|quadruple|"
-    r"(?:an? )?#\d+ (?:times|x|fold))"
-)
+_TIMES_AS = rf"(?P<n>{_SAID_TIMES}|(?:an? )?#\d+ (?:times|x|fold))"
 _ITS_WEIGHT = (
     r"(?:of )?(?:(?:the|its|that|this|our|your|as much) )?(?:(?:given|told|stated|present|current|"
     r"original) )?(?:mass|weight|load)"

@@ -15,9 +15,8 @@ from dataclasses import replace
 from tacgrasp.lessons.dialogue.calculations.asked import AskedWords, usual
 from tacgrasp.lessons.dialogue.calculations.phrases import EXCEEDS, MOVES, REACHES
 from tacgrasp.lessons.dialogue.calculations.quantity_names import THING, UNIT, is_band
-from tacgrasp.lessons.dialogue.calculations.terms import Term, alike
-from tacgrasp.lessons.dialogue.conditions import ABOUT, number_text
-from tacgrasp.lessons.dialogue.expression import Expression
+from tacgrasp.lessons.dialogue.calculations.terms import Term, alike, is_near
+from tacgrasp.lessons.dialogue.conditions import ABOUT
 from tacgrasp.lessons.dialogue.meaning import Calculated
 
 _VERB = r"(?:is|are|was|were|does|do|did|would|will|has|have|can|could)"
@@ -342,12 +341,7 @@ def _near(asked: AskedWords, words: str) -> str | None:
         return None
     is_told = found.re is _EQUAL and _EXACT.fullmatch(pair[0].expression)
     share = _LEAST_APART if is_told else ABOUT
-    number = Expression(pair[1].expression).evaluate({}).value
-    away = f"{share:g} * {pair[1].factor}"
-    if isinstance(number, int | float):
-        away = number_text(share * abs(number))
-    near = f"abs({pair[0].expression} - {pair[1].factor}) <= {away}"
-    return f"not ({near})" if found["not"] else near
+    return is_near(pair[0].expression, pair[1], denied=bool(found["not"]), share=share)
 
 
 def _apart(asked: AskedWords, found: re.Match[str]) -> str | None:

@@ -15,8 +15,7 @@ import re
 from tacgrasp.lessons.dialogue.calculations.asked import AskedWords
 from tacgrasp.lessons.dialogue.calculations.phrases import AGAINST, is_made_of, sign_of
 from tacgrasp.lessons.dialogue.calculations.quantity_names import UNIT
-from tacgrasp.lessons.dialogue.calculations.terms import Term
-from tacgrasp.lessons.dialogue.conditions import ABOUT, number_text
+from tacgrasp.lessons.dialogue.calculations.terms import Term, is_near
 from tacgrasp.lessons.dialogue.meaning import Calculated
 from tacgrasp.lessons.dialogue.quantities import MEAN_PRESSURE, UNITS
 
@@ -168,9 +167,8 @@ def pressure_check(asked: AskedWords) -> Calculated | None:
         bound = asked.term(about["by"])
         if bound is None or bound.dimension != "pressure":
             return None
-        away = number_text(ABOUT * float(bound.expression))
-        near = f"abs({MEAN_PRESSURE} - {bound.factor}) <= {away}"
-        return Calculated(truth=f"not ({near})" if " not" in about[0] else near, unit=None)
+        truth = is_near(MEAN_PRESSURE, bound, denied=" not" in about[0])
+        return Calculated(truth=truth, unit=None)
     if found is None or len(asked.numbers) > 1 or _ELSEWHERE.search(asked.words):
         return None
     if not _BESIDE_PRESSURE.search(asked.words):

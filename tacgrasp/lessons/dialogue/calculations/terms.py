@@ -22,7 +22,8 @@ from tacgrasp.lessons.dialogue.calculations.quantity_names import (
     WEIGHT,
     unit_of,
 )
-from tacgrasp.lessons.dialogue.conditions import number_text
+from tacgrasp.lessons.dialogue.conditions import ABOUT, number_text
+from tacgrasp.lessons.dialogue.expression import Expression
 from tacgrasp.lessons.dialogue.quantities import GRAVITY_N_PER_G, UNITS
 
 PLAIN, UNSAID = "ratio", "unsaid"
@@ -68,6 +69,23 @@ class Term:
     def has_quantity(self) -> bool:
         """Whether it has more than numbers."""
         return re.search(r"[a-z]{2}", self.expression) is not None
+
+
+def is_near(value: str, middle: Term, *, denied: bool, share: float = ABOUT) -> str:
+    """The condition that a value is another one within a share of it, or that it is not.
+
+    Args:
+        value: Expression of the value.
+        middle: The other one.
+        denied: Whether it is not to be near.
+        share: How far off it may be, as a fraction.
+    """
+    number = Expression(middle.expression).evaluate({}).value
+    away = f"{share:g} * {middle.factor}"
+    if isinstance(number, int | float):
+        away = number_text(share * abs(number))
+    near = f"abs({value} - {middle.factor}) <= {away}"
+    return f"not ({near})" if denied else near
 
 
 _MULTIPLES: Mapping[str, str] = {
