@@ -83,6 +83,9 @@ class Augmentation:
             these in larger cells.
         coarse: Fraction of samples whose grid is felt by a few taxels instead of pixels
             (``COARSE_PITCH_MM``): half by means over areas, half in points alone.
+
+    Raises:
+        TouchError: A fraction is not between 0 and 1.
     """
 
     noise_level: float | NoiseLevels | NoiseRange = 1.0
@@ -92,6 +95,11 @@ class Augmentation:
     loose: float = field(default=0.0, repr=False)  # see ``identity``
     windows: float = field(default=0.0, repr=False)
     coarse: float = field(default=0.0, repr=False)
+
+    def __post_init__(self) -> None:
+        for name in ("uncalibrated", "clean", "loose", "windows", "coarse"):
+            if not 0 <= (value := getattr(self, name)) <= 1:
+                raise TouchError(f"{name} must be a fraction from 0 to 1, got {value}")
 
     @property
     def identity(self) -> str:

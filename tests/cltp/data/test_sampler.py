@@ -84,6 +84,13 @@ def test_every_value_is_in_the_name_of_a_noise_and_the_default_is_named_as_it_al
     assert len({usual, *(each.identity for each in others)}) == 5
 
 
+@pytest.mark.parametrize("value", [-0.1, 5.0, float("nan")])
+@pytest.mark.parametrize("name", ["uncalibrated", "clean", "loose", "windows", "coarse"])
+def test_a_fraction_of_samples_is_one(name, value):
+    with pytest.raises(TouchError, match=f"{name} must be a fraction from 0 to 1, got {value}"):
+        Augmentation(**{name: value})
+
+
 def test_a_coarse_sensor_blurs_what_it_feels_where_it_is(data):
     every = Augmentation(noise_level=0.0, mirror=False, coarse=1.0)
     fine, coarse = (
