@@ -75,7 +75,7 @@ VARIANTS: Mapping[str, EncoderVariant] = {
         presets={
             "grid": _GRID,
             "grid_pressure": {**_GRID, "pressure": 1},
-            "grid_curves": {**_GRID, "pressure": 1, "curves": 112},
+            "grid_curves": {**_GRID, "pressure": 1, "curves": 224, "projection": 512},
             "tiny_grid": {
                 **{"num_groups": 63, "dim": 48, "depth": 1, "heads": 2, "stem_dim": 4},
                 **{"bearing": 16},

@@ -268,12 +268,12 @@ def test_ordered_curves_stand_beside_what_is_learned_whatever_that_is(tmp_path: 
     maps = grid_maps(points, has_pressure=True)
     curves = ordered_curves(points, maps, config.bearing, config.grades, config.curves)
     width = config.pooled_dim - 2 * config.dim
-    assert curves.shape == (2, width) == (2, 64 + 60 + 2 * 112)
+    assert curves.shape == (2, width) == (2, 64 + 60 + 2 * 224)
     assert torch.equal(pooled[:, :width], curves)
     assert torch.equal(other[:, :width], curves)
     assert not torch.equal(pooled[:, width:-1], other[:, width:-1])
     torch.testing.assert_close(curves[:, :64], 5 * height_quantiles(points, 64))
-    pressures = curves[:, 124:].unflatten(1, (2, 112))
+    pressures = curves[:, 124:].unflatten(1, (2, 224))
     assert (pressures.diff(dim=2) <= 0).all()  # in falling order
     save_encoder(tmp_path / "encoder", first, StateHeads.of(config))
     assert load_encoder(tmp_path / "encoder")[0].config == config
