@@ -187,7 +187,7 @@ def _take_words(draft: _Draft, request: Request, task: TaskTerms, *, is_own: boo
             if draft.force.limit_n < draft.named_most_n and draft.force == task.force:
                 draft.origins["force_n"] = draft.origins["limit_n"] = TASK
                 limit = f"the task's limit of {task.force.limit_n:.3g} N"
-                draft.assumed.append(f"{draft.words!r} is above {limit}, which stays")
+                draft.assumed.append(f"{draft.words!r} is above {limit} and does not raise it")
         _keep_within(draft, numbers)
         _note_tolerances(draft, numbers.forces, numbers.rest)
     elif numbers.delta_n is not None:
@@ -295,7 +295,9 @@ def _take_configuration(draft: _Draft, given: Mapping[str, object]) -> None:
         if draft.origins["force_n"] != TASK:
             words = draft.origins["force_n"].rpartition("your words: ")[2]
             draft.assumed.append(f"{words!r} gives way to the configuration's force_n")
-        top_n = default_limit_n(band) if draft.named_most_n is None else draft.named_most_n
+        top_n = draft.named_most_n
+        if top_n is None or draft.origins["limit_n"] == TASK:  # words above the task's limit
+            top_n = min(default_limit_n(band), math.inf if top_n is None else top_n)
         draft.set_force(ForceTerms(force_n=band, limit_n=top_n), CONFIGURATION)
     if isinstance(limit_n, (int, float)):
         band = draft.force.force_n

@@ -103,19 +103,26 @@ def target_of(contract: Contract) -> Goal:
 
 
 def softened(contract: Contract) -> Contract:
-    """The contract held to the terms of soft objects, after what is felt has objected."""
+    """The contract held to the terms of soft objects, after what is felt has objected.
+
+    The lower of both limits stays.
+    """
     soft = contract.soft
     if soft is None:
         return contract
     words = f"what is felt is soft: held to {soft.force_n.low:.2f}-{soft.force_n.high:.2f} N"
+    origins = {**contract.origins, "force_n": "what is felt"}
+    limit_n = contract.terms.limit_n
+    if soft.limit_n < limit_n:
+        limit_n, origins["limit_n"] = soft.limit_n, "what is felt"
     return replace(
         contract,
         force_n=soft.force_n,
-        limit_n=soft.limit_n,
+        limit_n=limit_n,
         needs=soft.needs,
         depth_mm=DEFAULT_DEPTH_MM,
         area_fraction=DEFAULT_AREA,
-        origins={**contract.origins, "force_n": "what is felt", "limit_n": "what is felt"},
+        origins=origins,
         assumed=(*contract.assumed, words),
         soft=None,
     )

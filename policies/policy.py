@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from numbers import Real
 from typing import Protocol
 
 from policies.errors import PolicyError
@@ -101,10 +102,15 @@ def checked(reply: object) -> Decision:
             "a decision needs a text, and True or False for success; got "
             f"{reply.text!r:.80} and {reply.success!r:.80}"
         )
+    if not (isinstance(reply.reason, str) and isinstance(reply.stage_ms, Mapping)):
+        raise PolicyError(
+            "a decision's reason is a text, and its stage_ms durations by their names; got "
+            f"{reply.reason!r:.80} and {reply.stage_ms!r:.80}"
+        )
     for name, text in (("text", reply.text), ("reason", reply.reason)):
         if not is_unicode(text):
             raise PolicyError(f"the policy's {name} is no Unicode, got {text!r:.80}")
     for name, number in (("confidence", reply.confidence), *reply.stage_ms.items()):
-        if not math.isfinite(number):
-            raise PolicyError(f"the policy's {name} is {number}; expected a finite number")
+        if not (isinstance(number, Real) and math.isfinite(number)):
+            raise PolicyError(f"the policy's {name} is {number!r:.80}; expected a finite number")
     return reply

@@ -438,8 +438,9 @@ class Executor:
         request_n = force_n or (self._read_under_n or before) * factor
         force = clamp_force(request_n, self._limits)
         allowed_n = min(force.value, self._gripper.most_n)
+        is_against = allowed_n < before if increase else allowed_n > before  # after a reflex's own
         unchanged = math.isclose(allowed_n, before, rel_tol=1e-9) or (
-            increase and allowed_n < before
+            is_against and (increase or force_n is None)
         )
         at_limit = force.note or allowed_n < force.value
         reason = AT_LIMIT if at_limit else "the goal leaves no room for a change"

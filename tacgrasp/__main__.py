@@ -36,11 +36,10 @@ ON_ALL_CORES = ("train", "eval", "data", "bench", "calibrate gelsight-mini")
 """Commands with much to compute at once. The others compute in steps of milliseconds and keep to
 one thread: on a busy machine, threads that wait for each other took up to fifteen times as long."""
 
-MOVE_A_ROBOT = ("run", "replay", "calibrate", "doctor", "jog", "emulate")
+HAVE_DEVICES = ("run", "replay", "calibrate", "doctor", "jog", "emulate", "view")
 """Commands with devices, which SIGTERM and SIGHUP end as Ctrl-C does, and which go on when nobody
 reads their output any more. The others have nothing to make safe: workers of a pool end with the
-process that started them, a training is resumed from its last checkpoint, and ``view`` hears
-SIGTERM itself, to end its viewer."""
+process that started them, and a training is resumed from its last checkpoint."""
 
 FILE_ERRORS = (
     *(errno.EACCES, errno.EDQUOT, errno.EFBIG, errno.EINVAL, errno.EIO, errno.EISDIR),
@@ -94,7 +93,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
         _print(f"tacgrasp {__version__}")
         return 0
-    if argv[0] not in MOVE_A_ROBOT:
+    if argv[0] not in HAVE_DEVICES:
         return _run(argv)
     from tacgrasp.base.lasting_output import lasting_output
     from tacgrasp.base.stop_signals import stop_signals_as_ctrl_c

@@ -47,6 +47,16 @@ def stop_signals_as_ctrl_c() -> Iterator[list[int]]:
             signal.signal(number, signal.SIG_DFL)
 
 
+@contextmanager
+def until_ctrl_c() -> Iterator[None]:
+    """End the block alone at Ctrl-C, which is its usual end; a stop signal ends the command."""
+    try:
+        yield
+    except KeyboardInterrupt as stop:
+        if str(stop):  # of a signal
+            raise
+
+
 def _is_terminal(descriptor: int) -> bool:
     with suppress(OSError):
         return os.isatty(descriptor)

@@ -16,7 +16,7 @@ from primitives.contract import Contract
 from tacgrasp.base.errors import UsageError
 from tacgrasp.base.settings import SettingsBase
 from tacgrasp.cli.flags import parse, parse_some, writable
-from tacgrasp.config.errors import flag_of
+from tacgrasp.config.errors import denied_flag_of, flag_of
 from tacgrasp.config.hardware import HardwareConfig
 from tacgrasp.config.layers import Sources, leaves, load_with_limits
 from tacgrasp.config.schema import RunConfig
@@ -69,14 +69,22 @@ def main(argv: Sequence[str]) -> int:
     """Run one episode and return its exit code."""
     config, sources, flags = configure(argv)
     from tacgrasp.config.terms import contract_of
-    from tacgrasp.rig.factory import check_devices
+    from tacgrasp.episodes.paths import check_record_directory
+    from tacgrasp.policy_factory import check_run_policy
+    from tacgrasp.rig.factory import check_devices, check_names
     from tacgrasp.runtime.events import EventFile
+    from tacgrasp.viewer.server import require_rerun
 
     contract = contract_of(config, sources)
     if flags.print_config:
         _print_config(config, sources, contract)
         return 2 if contract.refused else 0
     check_devices(config, allow_uncalibrated_force=flags.allow_uncalibrated_force)
+    check_run_policy(config)
+    check_names(config)
+    if flags.view:
+        require_rerun()
+    check_record_directory(config.record)
     writable(flags.events, ".json", ".jsonl")
     with EventFile(flags.events) as events:
         try:
@@ -97,11 +105,11 @@ def configure(argv: Sequence[str]) -> tuple[RunConfig, Sources, RunFlags]:
     values = {name: getattr(below, name) for name in type(below).model_fields}
     default = RunFlags.model_construct(**values)
     flags = parse(RunFlags, argv, prog="tacgrasp run", default=default)
-    tokens = {token.split("=")[0] for token in argv if token.startswith("--")}
+    named = {token.split("=")[0].replace("_", "-") for token in argv if token.startswith("--")}
     config = RunConfig(**{name: getattr(flags, name) for name in RunConfig.model_fields})
     for path in leaves(config):
         flag = flag_of(path)
-        if flag in tokens or flag.replace("--", "--no-", 1) in tokens:
+        if not named.isdisjoint((flag, denied_flag_of(path))):
             sources[path] = f"flag {flag}"
     hard.check(config, lambda path: sources[path])
     return config, sources, flags
@@ -111,24 +119,15 @@ def _run(config: RunConfig, contract: Contract, events: EventFile, flags: RunFla
     from tacgrasp.config.terms import contract_lines
     from tacgrasp.console import end_lines, make_console, width_of, working, wrapped
     from tacgrasp.episodes.interrupts import delayed_interrupts
-    from tacgrasp.episodes.paths import check_record_directory
-    from tacgrasp.policy_factory import check_run_policy
-    from tacgrasp.rig.factory import check_names
     from tacgrasp.run import run_recorded
     from tacgrasp.runtime.reflex_loop import unfelt_slips
-    from tacgrasp.viewer.server import require_rerun
 
-    check_run_policy(config)
-    check_names(config)
-    if flags.view:
-        require_rerun()
     events.contract(contract)
     if contract.refused:
         events.refused(contract)
         raise UsageError(
             f"refused: {contract.refused}. Understood: {contract.summary}; nothing moved"
         )
-    check_record_directory(config.record)
     console = make_console()
     with ExitStack() as stack:
         with working("loading the policy and connecting the rig"):

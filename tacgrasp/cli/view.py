@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import math
 import os
-import signal
-import sys
 from collections.abc import Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass
@@ -70,7 +68,6 @@ def main(argv: Sequence[str]) -> int:
             f"{flags.episode} does not exist; `tacgrasp episodes ls` lists those that do"
         )
     console = make_console()
-    before = signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))  # so that the viewer ends too
     with working("starting the viewer"):
         viewer = Viewer(web=flags.web or not has_display())
     try:
@@ -82,7 +79,6 @@ def main(argv: Sequence[str]) -> int:
             viewer.wait()
     finally:
         viewer.close()
-        signal.signal(signal.SIGTERM, before)
     return 0
 
 

@@ -37,6 +37,12 @@ def flag_of(path: str) -> str:
     return f"--{path.replace('_', '-')}"
 
 
+def denied_flag_of(path: str) -> str:
+    """Flag that switches a dotted path off: ``--verify.no-set-down`` of ``verify.set_down``."""
+    section, dot, name = path.rpartition(".")
+    return flag_of(f"{section}{dot}no_{name}")
+
+
 def explain(details: ErrorDetails) -> str:
     """One error of a configuration file or variable: field, expected, got."""
     return _explain(details, path_of(details["loc"]) or "the run")

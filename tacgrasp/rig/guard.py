@@ -12,9 +12,9 @@ import threading
 import time
 from collections.abc import Callable, Sequence
 
-from cltp.errors import TouchError
 from primitives.devices import Arm, Pose
 from primitives.errors import RobotError
+from tacgrasp.base.errors import error_text
 from tacgrasp.drivers.scheduling import request_priority
 
 POLL_S = 0.001
@@ -29,6 +29,10 @@ MAX_HOLDS = 30
 Check = Callable[[], str]
 """Why a device's readings are too old to move by; empty while they are fresh. Raises ``RobotError``
 or ``TouchError`` when the device has failed; costs next to nothing."""
+
+
+class _DeviceError(Exception):
+    """Another device of the rig has failed, or its check has."""
 
 
 class GuardedArm:
@@ -111,7 +115,7 @@ class GuardedArm:
             try:
                 if not self._staleness():
                     break
-            except (RobotError, TouchError):
+            except _DeviceError:
                 break
             time.sleep(POLL_S)
         return time.monotonic() - began_s
@@ -125,7 +129,7 @@ class GuardedArm:
             fault, stale = "", ""
             try:
                 stale = self._staleness()
-            except (RobotError, TouchError) as error:
+            except _DeviceError as error:
                 fault = str(error)
             with self._stopping:
                 is_new = not (self._fault or self._stale)
@@ -137,8 +141,15 @@ class GuardedArm:
             self._ended.wait(POLL_S)
 
     def _staleness(self) -> str:
-        """Reason to hold; empty for none. Raises as a check."""
-        return next(filter(None, (check() for check in self._checks)), "")
+        """Reason to hold; empty for none.
+
+        Raises:
+            _DeviceError: A check raised, be it what a plugin's may raise: anything.
+        """
+        try:
+            return next(filter(None, (check() for check in self._checks)), "")
+        except Exception as error:
+            raise _DeviceError(error_text(error)) from error
 
     def _failure(self, waited_s: float) -> str:
         """Why the arm must not move, after a wait for fresh readings; empty for none."""
@@ -146,6 +157,6 @@ class GuardedArm:
             return "the move was cut short by a stop"
         try:
             stale = self._staleness()
-        except (RobotError, TouchError) as error:
+        except _DeviceError as error:
             return str(error)
         return f"{stale}; nothing newer came within {waited_s:.1f} s" if stale else ""

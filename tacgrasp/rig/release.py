@@ -11,7 +11,7 @@ from contextlib import contextmanager
 from cltp.errors import TouchError
 from primitives.devices import Gripper
 from primitives.errors import RobotError, TorqueOffError
-from tacgrasp.base.errors import UsageError
+from tacgrasp.base.errors import UsageError, error_text
 from tacgrasp.drivers.opening import BY_JOG
 from tacgrasp.episodes.interrupts import delayed_interrupts
 
@@ -25,14 +25,14 @@ FREE_BY_HAND = (
 """Advice when a gripper that should release has failed: it takes no command any more."""
 
 
-def unopened_text(error: RobotError, told: str) -> str:
+def unopened_text(error: Exception, told: str) -> str:
     """What a gripper that did not open means for what it gripped, for the operator.
 
     Args:
         error: Why it did not open.
         told: What the operator is told already.
     """
-    reason = "" if str(error) in told else f": {error}"
+    reason = "" if str(error) and str(error) in told else f": {error_text(error)}"
     if isinstance(error, TorqueOffError):
         return f"the gripper has no torque and holds nothing{reason}"
     return f"the gripper could not be opened{reason}; {FREE_BY_HAND}"

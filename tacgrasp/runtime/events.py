@@ -24,6 +24,10 @@ from tacgrasp.episodes.codec import to_json
 from tacgrasp.episodes.record import StepRecord
 from tacgrasp.runtime.outcome import EndReason, Outcome
 
+REFUSED = "refused"
+"""End of a run that was not begun, in the place of an ``EndReason``: its instruction is no
+contract, or something in its configuration does not fit."""
+
 
 class EventFile:
     """Writes events to a file as they come; without a file it does nothing.
@@ -40,6 +44,7 @@ class EventFile:
         self._is_array = self._is_empty = False
         self._began_s: float | None = None
         self._has_ended = False
+        self._num_steps = self._num_actions = 0
         self.problem = ""
 
     def __enter__(self) -> EventFile:
@@ -66,11 +71,14 @@ class EventFile:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
-        """Close the file; one that was stopped before the run began says so."""
+        """Close the file; one whose run gave no outcome says why."""
         if error is not None and not self._has_ended:
-            stopped = isinstance(error, KeyboardInterrupt)
-            reason = EndReason.OPERATOR if stopped else EndReason.FAULT
-            self._unbegun(reason, str(error) or "stopped by the operator")
+            if isinstance(error, KeyboardInterrupt):
+                self._end_without(EndReason.OPERATOR, str(error) or "stopped by the operator")
+            elif isinstance(error, UsageError):
+                self._end_without(REFUSED, str(error))
+            else:
+                self._end_without(EndReason.FAULT, str(error))
         if self._file is not None:
             self._file.close()
 
@@ -95,6 +103,8 @@ class EventFile:
         if record.contract is not None:
             self.contract(record.contract)
         decision, executed = record.decision, record.executed
+        self._num_steps += 1
+        self._num_actions += executed is not None
         if self._began_s is None:
             self._began_s = record.stamp.monotonic_s
         felt = record.felt_force_n
@@ -144,16 +154,15 @@ class EventFile:
 
     def refused(self, contract: Contract) -> None:
         """The end of a run whose contract is refused."""
-        self._unbegun("refused", contract.refused)
+        self._end_without(REFUSED, contract.refused)
 
-    def _unbegun(self, reason: str, message: str) -> None:
-        """The end of a run that did not begin."""
+    def _end_without(self, reason: str, message: str) -> None:
+        """The end of a run without an outcome: it did not begin, or its closing was cut short."""
         nothing = dict.fromkeys(
             ("safe_state", "verified", "bruised", "dropped", "peak_force_n", "slip_minimum_n")
         )
-        self._write(
-            "end", {"reason": reason, "message": message, **nothing, "steps": 0, "actions": 0}
-        )
+        counts = {"steps": self._num_steps, "actions": self._num_actions}
+        self._write("end", {"reason": reason, "message": message, **nothing, **counts})
 
     def _write(self, event: str, fields: dict[str, Any]) -> None:
         if self._file is None:

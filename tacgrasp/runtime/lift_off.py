@@ -155,7 +155,8 @@ def lift_off(
         rig.clock.sleep(still_s)
         top_m = float(start.position_m[2]) + settings.lift_mm / 1000
         for part, way in ROCKS if is_shaken else ():
-            _rock(rig, hold, settings, part, way * side_m, top_m)
+            if not _rock(rig, hold, settings, part, way * side_m, top_m):
+                return LiftOff(problem="it slides on at the largest force that its limit allows")
         _raise(rig, hold, SPARE)
         return LiftOff(floor_n=hold.memory.floor_n)
 
@@ -179,14 +180,17 @@ def _rock(
     part: float,
     side_m: NDArray[np.float64],
     top_m: float,
-) -> None:
+) -> bool:
     """Rock with a part of the shake's acceleration, there and back, until nothing slips in it.
 
     Where the object does, the reflex raises the force; after the rock more is added for the way
     that it slid, and the fingers rise by as much, at most to ``top_m`` in the base frame: on its
     support it would show nothing more.
+
+    Returns:
+        Whether to go on: it slips no more, or the force has grown.
     """
-    here = rig.arm.pose()
+    here, began_n = rig.arm.pose(), rig.gripper.state().force_n
     acceleration_m_s2 = part * settings.shake_acceleration_m_s2
     for _ in range(ROCKED_TIMES):
         began_s, began_mm = hold.seen_s, hold.indented_mm
@@ -201,12 +205,13 @@ def _rock(
         if hold.called_s > began_s:
             least_mm /= 2
         if hold.slipped_s <= began_s and slid_mm < least_mm:
-            return
+            return True
         _raise(rig, hold, min(MOST_ROCKED, ROCKED + SLID_PER_MM * slid_mm))
         rise_m = max(0.0, min(slid_mm / 1000, MOST_RISE_MM / 1000, top_m - here.position_m[2]))
         here = shifted(here, np.array([0.0, 0.0, rise_m]))
         _go(rig, here, settings.lift_off_speed_m_s, settings.acceleration_m_s2)
         _hang(rig, hold)  # elsewhere on the pad
+    return rig.gripper.state().force_n > began_n
 
 
 def _hang(rig: Rig, hold: ReflexHold) -> None:

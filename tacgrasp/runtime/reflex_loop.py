@@ -229,17 +229,20 @@ class ReflexLoop:
 
     def _command(self, hold: ReflexHold, correction: Correction, reading: ReflexReading) -> None:
         state = self._executor.correct_force(correction.force_n)
+        if math.isclose(state.force_n, reading.commanded_n, rel_tol=1e-6):
+            if hold.ahead_n == reading.ahead_n:
+                hold.ahead_n = state.force_n  # all that is let through
+            return
         hold.renew()
-        if not math.isclose(state.force_n, reading.commanded_n, rel_tol=1e-6):
-            reason = ", ".join(filter(None, [correction.reason, state.clamped]))
-            self._corrections.append(
-                ForceCorrection(
-                    t_s=self._now_s(),
-                    before_n=reading.commanded_n,
-                    after_n=state.force_n,
-                    reason=reason,
-                )
+        reason = ", ".join(filter(None, [correction.reason, state.clamped]))
+        self._corrections.append(
+            ForceCorrection(
+                t_s=self._now_s(),
+                before_n=reading.commanded_n,
+                after_n=state.force_n,
+                reason=reason,
             )
+        )
 
     def _now_s(self) -> float:
         """Time of the hold's readings [s]: in a simulated world of that, from its begin on."""

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Callable
-from contextlib import nullcontext, suppress
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from dataclasses import asdict, dataclass, replace
 from typing import TypeVar
 
-from primitives import RobotError
 from primitives.errors import TorqueOffError
+from tacgrasp.base.errors import error_text
 from tacgrasp.config.schema import RunConfig, VerifyConfig
 from tacgrasp.episodes import EpisodeEnd, EpisodeError
 from tacgrasp.episodes.interrupts import delayed_interrupts
@@ -62,21 +62,16 @@ class Ending:
 def close(ending: Ending) -> Outcome:
     """Stop the arm, hold or release as the task says, and write how the episode ended.
 
-    A failure here turns the end into ``fault``. Ctrl-C waits until it is done; of an episode that
-    the operator has stopped, it is what was asked for already.
-
-    Raises:
-        Exception: A bug in a device; the record is ended all the same.
+    A failure here turns the end into ``fault``, that of a plugin's device too, which may raise
+    anything. Ctrl-C waits until it is done, and then tells the end that it hides; of an episode
+    that the operator has stopped, it is what was asked for already.
     """
     rig, steps, end = ending.rig, ending.steps, ending.end
     is_dry = ending.config.dry_run  # which grips nothing: there is no truth and no gain of a grip
     is_stopped = end.reason is EndReason.OPERATOR
-    with suppress(KeyboardInterrupt) if is_stopped else nullcontext(), delayed_interrupts():
-        try:
-            truth = None if is_dry else read_truth(rig, ending.config.verify)  # before it opens
-        finally:
-            safe_state, is_safe = _make_safe(ending)
-        problems = [] if is_safe else [safe_state]
+    with _interrupted(is_expected=is_stopped) as told, delayed_interrupts():
+        truth = None if is_dry else read_truth(rig, ending.config.verify)  # before it opens
+        safe_state, problems = _make_safe(ending)
         refusals = _refusals(lambda: steps.record_cut_short(ending.last_step, end.message))
         if end.reason is not EndReason.FAULT:  # a fault may be the recorder's own error already
             problems += refusals
@@ -96,6 +91,7 @@ def close(ending: Ending) -> Outcome:
             gain=None if is_dry else steps.gain,
             lifted=ending.verification is None or ending.verification.lifted,
         )
+        told.append(f"{outcome.message}; {safe_state}")
         refusals = _refusals(lambda: ending.recorder.finish(_episode_end(rig, outcome)))
     if refusals and outcome.reason is not EndReason.FAULT:
         message = "; ".join([outcome.message, *refusals])
@@ -111,8 +107,8 @@ def read_truth(rig: Rig, verify: VerifyConfig) -> TruthFacts | None:
     """
     try:
         truth = rig.truth()
-    except RobotError as error:  # the robot must be made safe all the same
-        log.warning("the truth can't be recorded: %s", error)
+    except Exception as error:  # the robot must be made safe all the same
+        log.warning("the truth can't be recorded: %s", error_text(error))
         return None
     if truth is None:
         return None
@@ -123,8 +119,21 @@ def read_truth(rig: Rig, verify: VerifyConfig) -> TruthFacts | None:
     return facts | {"offset_x_mm": x_mm, "offset_y_mm": y_mm}
 
 
-def _make_safe(ending: Ending) -> tuple[str, bool]:
-    """Stop, then hold or release; return the state of the gripper, and whether it is as desired.
+@contextmanager
+def _interrupted(*, is_expected: bool) -> Iterator[list[str]]:
+    """Tell the lines in the yielded list when Ctrl-C comes, which hides what is returned."""
+    told: list[str] = []
+    try:
+        yield told
+    except KeyboardInterrupt:
+        if not is_expected:
+            for line in told:
+                log.warning("%s", line)
+            raise
+
+
+def _make_safe(ending: Ending) -> tuple[str, list[str]]:
+    """Stop, then hold or release; return the state of the gripper, and what is not as desired.
 
     What may hang in the air is held whatever the task says of a failed episode: it would fall.
     Fingers that closed on nothing, at the start pose, open as wide as they were before the first
@@ -132,12 +141,25 @@ def _make_safe(ending: Ending) -> tuple[str, bool]:
     """
     rig, config, end = ending.rig, ending.config, ending.end
     if config.dry_run:
-        return "nothing was sent", True
+        return "nothing was sent", []
+    problems = [*_failure("arm", rig.arm.stop), *_failure("gripper", rig.gripper.stop)]
     action = config.on_success if end.reason is EndReason.SUCCESS else config.on_failure
-    _despite_interrupts(rig.arm.stop)
-    _despite_interrupts(rig.gripper.stop)
-    if action == "hold":
-        return _kept(rig, end.message)
+    state, is_desired = _kept(rig, end.message) if action == "hold" else _released(ending)
+    return state, problems if is_desired else [*problems, state]
+
+
+def _failure(name: str, stop: Callable[[], None]) -> list[str]:
+    """Stop a device; why it could not, which keeps no other one from being stopped."""
+    try:
+        _despite_interrupts(stop)
+    except Exception as error:
+        return [f"the {name} could not be stopped: {error_text(error)}"]
+    return []
+
+
+def _released(ending: Ending) -> tuple[str, bool]:
+    """State of a gripper that is to let go, and whether it has, as far as it may."""
+    rig, config, end = ending.rig, ending.config, ending.end
     try:
         state = _despite_interrupts(rig.gripper.state)
         if not state.closed:
@@ -148,7 +170,7 @@ def _make_safe(ending: Ending) -> tuple[str, bool]:
         if end.reason is EndReason.CONTACT_LOST:
             clear_m = max(clear_m, ending.open_width_m - state.width_m)
         _despite_interrupts(lambda: rig.gripper.open_by(clear_m))
-    except RobotError as error:
+    except Exception as error:
         return unopened_text(error, end.message), False
     except KeyboardInterrupt:
         reason = "interrupted again and again"
@@ -162,7 +184,7 @@ def _kept(rig: Rig, told: str) -> tuple[str, bool]:
         _despite_interrupts(rig.gripper.state)
     except TorqueOffError as error:
         return unopened_text(error, told), False
-    except (RobotError, KeyboardInterrupt):
+    except (Exception, KeyboardInterrupt):
         pass  # it takes no command, and keeps its grip
     return KEPT, True
 

@@ -86,9 +86,14 @@ def verify_by_lifting(
 
 
 def level_axis(pose: Pose, pad: PadConfig) -> NDArray[np.float64]:
-    """Of the pad's axes at a pose, the one nearest to the horizontal, base frame."""
+    """Horizontal part of that axis of the pad which is nearest to it at a pose, base frame; unit.
+
+    The rest would lead down into what the object stood on.
+    """
     axes = [rotate(pose.rotvec_rad, np.array(axis)) for axis in (pad.x_axis, pad.y_axis)]
-    return min(axes, key=lambda axis: abs(float(axis @ UP)))
+    nearest = min(axes, key=lambda axis: abs(float(axis @ UP)))
+    level: NDArray[np.float64] = nearest - (nearest @ UP) * UP
+    return level / np.linalg.norm(level)
 
 
 def accelerations(verify: VerifyConfig) -> list[tuple[float, float]]:

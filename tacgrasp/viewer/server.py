@@ -19,6 +19,7 @@ from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from tacgrasp.base.errors import UsageError
+from tacgrasp.base.stop_signals import until_ctrl_c
 
 if TYPE_CHECKING:
     import rerun as rr
@@ -80,7 +81,11 @@ class Viewer:
         self._process = subprocess.Popen(
             command, stdout=subprocess.DEVNULL, stderr=self._log, start_new_session=True
         )
-        self._wait_for(port)
+        try:
+            self._wait_for(port)
+        except BaseException:  # Ctrl-C too: the process has a session of its own
+            self.close()
+            raise
 
     def stream(self, name: str) -> rr.RecordingStream:
         """A new stream into this viewer."""
@@ -92,11 +97,9 @@ class Viewer:
         return stream
 
     def wait(self) -> None:
-        """Wait until the window is closed; Ctrl-C ends the viewer."""
-        try:
+        """Wait until the window is closed, or for Ctrl-C."""
+        with until_ctrl_c():
             self._process.wait()
-        except KeyboardInterrupt:
-            self.close()
 
     def close(self) -> None:
         """End the viewer and the program that it started. Idempotent."""

@@ -7,13 +7,13 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from cltp.sensing.frames import jpeg_of
 from primitives.devices import GripperState, Pose
 from primitives.execution import PadAxes
+from tacgrasp.base.stop_signals import until_ctrl_c
 from tacgrasp.config.schema import RunConfig
 from tacgrasp.episodes import Episode
 from tacgrasp.rig.protocols import CameraSensor, Rig, TactileSensor
@@ -85,7 +85,7 @@ def _watch(
     arm: Callable[[], tuple[Pose, GripperState] | None],
 ) -> int:
     number, start_s, due_s = 0, time.monotonic(), time.monotonic()
-    with suppress(KeyboardInterrupt):
+    with until_ctrl_c():
         while time.monotonic() - start_s < seconds:
             cloud = sensor.read()
             frame = sensor.last_frame() if isinstance(sensor, CameraSensor) else None

@@ -34,6 +34,9 @@ def test_a_whole_decision_passes_as_it_is(good):
         (replace(GOOD, reason="\ud800"), "reason is no Unicode"),
         (replace(GOOD, confidence=math.nan), "confidence is nan"),
         (replace(GOOD, stage_ms={"decide": math.inf}), "decide is inf"),
+        (replace(GOOD, reason=None), "reason is a text, .* got None"),
+        (replace(GOOD, stage_ms=None), "stage_ms durations by their names"),
+        (replace(GOOD, confidence="high"), "confidence is 'high'"),
     ],
 )
 def test_what_is_no_decision_is_an_error_of_the_policy(reply, words):

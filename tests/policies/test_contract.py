@@ -71,6 +71,12 @@ def test_a_most_in_words_stays_the_limit_under_a_configured_band_that_fits():
     assert 0.95 * 2 <= held.terms.limit_n <= 2
 
 
+def test_a_most_in_words_that_was_set_aside_raises_no_limit_of_a_configured_band():
+    band = Band(low=0.8, high=1.2)
+    for words in ("Pick it.", f"Hold it with at most {4 * STRAWBERRY.limit_n:g} N."):
+        assert read(words, force_n=band).terms.limit_n == pytest.approx(LIMIT_OVER_BAND * 1.2)
+
+
 @given(limit=st.integers(110, 900), text=st.sampled_from([TASK.instruction, "Hold it firmly."]))
 def test_a_configured_limit_is_the_limit_and_ends_the_band(limit, text):
     held = read(text, limit_n=limit / 100)
@@ -132,7 +138,7 @@ def test_a_limit_alone_that_no_words_may_name_leaves_band_and_limit_to_the_task(
 def test_such_a_limit_does_not_contradict_a_configured_band_below_it():
     held = read("Hold it with at most 8 N.", force_n=Band(low=4.0, high=6.0))
     assert held.terms.force_n == Band(low=4.0, high=6.0)
-    assert 0.95 * 8 <= held.terms.limit_n <= 8
+    assert held.terms.limit_n == LIMIT_OVER_BAND * 6.0 < 8  # the lower of both
     assert 0.95 * 8 <= read("Hold it with at most 8 N.", limit_n=10.0).terms.limit_n <= 8
 
 

@@ -106,6 +106,13 @@ def test_a_soft_contact_holds_a_hard_contract_to_the_terms_of_soft_ones():
     assert softened(held) is held
 
 
+def test_a_soft_contact_never_raises_the_limit():
+    named = replace(HARD, force_n=Band(low=1.5, high=1.9), limit_n=1.95)
+    held = softened(named)
+    assert held.terms == replace(STRAWBERRY, limit_n=1.95)
+    assert held.origins == {**named.origins, "force_n": "what is felt"}
+
+
 def test_where_nothing_may_object_the_contract_stays():
     assert softened(NARROW) is NARROW
 

@@ -143,6 +143,16 @@ def test_force_goes_up_by_half_and_down_to_sixty_five_percent_without_opening():
     assert executor.force_n == pytest.approx(0.975)
 
 
+def test_less_force_is_never_more_than_a_reflex_has_left():
+    executor, _, log = make()
+    executor.grasp()
+    executor.correct_force(0.5)
+    down = executor.execute(Primitive.DECREASE_FORCE)
+    assert (executor.force_n, down.sent) == (0.5, "nothing")
+    assert log[-1][1] == 0.5
+    assert executor.execute(Primitive.DECREASE_FORCE, force_n=0.65).sent == "0.65 N"  # a replay
+
+
 def test_a_clamped_force_is_reported_and_one_at_its_limit_sends_nothing():
     executor, _, log = make(limits=replace(LIMITS, max_force_n=1.2))
     executor.grasp()

@@ -33,7 +33,7 @@ from tacgrasp.drivers.scheduling import request_priority
 T = TypeVar("T")
 
 CALL_S = 2.0
-"""Longest wait for a job to end [s]; the thread is busy for about 0.1 s at most."""
+"""Longest wait for a job to begin, and again to end [s]. Our choice: twice a servo's patience."""
 
 _NUM_WAITS = 4
 _log = logging.getLogger(__name__)
@@ -125,11 +125,13 @@ class ServoPoller:
 
         Raises:
             RobotError: The gripper has a fault (``TorqueOffError`` where it has let go), the job
-                failed, or the thread does not answer.
+                failed, or the thread does not answer; what has not begun by then never does.
         """
         result: Future[T] = Future()
 
         def run() -> None:
+            if not result.set_running_or_notify_cancel():
+                return
             if self.fault and not despite_fault:
                 result.set_exception(self.error())
                 return
@@ -144,7 +146,12 @@ class ServoPoller:
             raise self.error("the gripper is disconnected")
         self._jobs.put(run)
         try:
-            return result.result(CALL_S)
+            try:
+                return result.result(CALL_S)
+            except FutureTimeoutError:
+                if result.cancel():
+                    raise
+                return result.result(CALL_S)  # it has begun
         except FutureTimeoutError:
             raise RobotError(
                 f"the gripper's I/O thread did not answer within {CALL_S:g} s; is this computer "

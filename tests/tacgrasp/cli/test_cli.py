@@ -6,6 +6,7 @@ import json
 import os
 import subprocess
 import sys
+from operator import attrgetter
 from pathlib import Path
 
 import numpy as np
@@ -16,7 +17,8 @@ from tacgrasp.__main__ import COMMANDS, main, usage
 from tacgrasp.base import package_check
 from tacgrasp.base.errors import UsageError
 from tacgrasp.base.worker_pool import THREADS
-from tacgrasp.config.layers import names
+from tacgrasp.cli.run import configure
+from tacgrasp.config.layers import leaves, load, names
 from tacgrasp.console import COMPLETED
 from tacgrasp.episodes.listing import table
 from tests.paths import ROOT
@@ -393,6 +395,34 @@ def test_print_config_says_where_each_value_came_from(capsys: Capture) -> None:
     assert lines["arm.max_step_mm"].split(maxsplit=1)[1] == "4.0  [flag --arm.max-step-mm]"
     assert lines["goal.force_n"].endswith("[tasks/egg.yaml]")
     assert lines["loop.max_asks"].endswith("[default]")
+
+
+@pytest.mark.parametrize("flags", [["--goal.limit_n", "0.6"], ["--goal.limit-n=0.6"]])
+def test_a_limit_reaches_the_contract_however_its_flag_is_spelt(
+    capsys: Capture, flags: list[str]
+) -> None:
+    assert main(["run", *flags, "--print-config"]) == 0
+    lines = {line.split()[0]: line for line in capsys.readouterr().out.splitlines()}
+    assert lines["goal.limit_n"].split(maxsplit=1)[1] == "0.6  [flag --goal.limit-n]"
+    assert lines["contract.limit_n"].split()[1] == "0.6"
+
+
+def test_every_setting_is_credited_to_its_flag_in_either_spelling() -> None:
+    config, _ = load("fruit")
+    for path in leaves(config):
+        value = attrgetter(path)(config)
+        section, _, name = path.rpartition(".")
+        prefix = f"--{section}." if section else "--"
+        if isinstance(value, bool):
+            names = [f"no_{name}" if value else name]
+            tokens: list[str] = []
+        elif isinstance(value, (int, float, str)):
+            names, tokens = [name], [str(value)]
+        else:
+            continue
+        for spelt in (names[0], names[0].replace("_", "-")):
+            _, sources, _ = configure(["--task", "fruit", f"{prefix}{spelt}", *tokens])
+            assert sources[path].startswith("flag --"), (path, spelt)
 
 
 def test_print_config_of_a_refused_instruction_ends_as_the_run_would(capsys: Capture) -> None:

@@ -72,7 +72,9 @@ def guarded(arm, device):
     guarded.disconnect()
 
 
-@pytest.mark.parametrize("error", [RobotError("no answer"), TouchError("no frame")])
+@pytest.mark.parametrize(
+    "error", [RobotError("no answer"), TouchError("no frame"), OSError("of a plugin")]
+)
 def test_a_device_that_fails_during_a_move_stops_the_arm_and_is_named(guarded, arm, device, error):
     def fail():
         arm.started.wait(20)
@@ -84,8 +86,9 @@ def test_a_device_that_fails_during_a_move_stops_the_arm_and_is_named(guarded, a
     assert arm.stops == 1
 
 
-def test_with_a_failed_device_no_move_begins(guarded, arm, device):
-    device.error = TouchError("no frame")
+@pytest.mark.parametrize("error", [TouchError("no frame"), AttributeError("no frame")])
+def test_with_a_failed_device_no_move_begins(guarded, arm, device, error):
+    device.error = error
     with pytest.raises(RobotError, match="no frame; the arm was not moved"):
         guarded.move_to(HERE)
     assert arm.moves == arm.stops == 0

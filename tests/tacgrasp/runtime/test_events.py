@@ -120,3 +120,28 @@ def test_what_stops_a_run_before_it_begins_is_its_end(tmp_path, events_before, s
     assert told[-1]["message"] == (str(stop) or "stopped by the operator")
     assert told[-1]["verified"] is None
     check_replaceable(path)
+
+
+@pytest.mark.parametrize(
+    ("error", "reason"),
+    [
+        (KeyboardInterrupt(), "operator"),
+        (UsageError("no such weights"), "refused"),
+        (ValueError("a bug"), "fault"),
+    ],
+)
+def test_a_run_without_an_outcome_ends_with_its_reason_and_what_was_done(tmp_path, error, reason):
+    path = tmp_path / "run.jsonl"
+    with pytest.raises(type(error)), EventFile(path) as events:
+        events.step(scaled_step(UNCALIBRATED))
+        raise error
+    end = json.loads(path.read_text("utf-8").splitlines()[-1])
+    assert (end["event"], end["reason"], end["steps"]) == ("end", reason, 1)
+
+
+def test_a_wrong_flag_leaves_the_events_of_an_earlier_run(tmp_path):
+    path = tmp_path / "run.jsonl"
+    path.write_text('{"event": "end"}\n')
+    with pytest.raises(UsageError, match="unknown policy"):
+        main(["--policy", "nonsense", "--json", str(path)])
+    assert path.read_text() == '{"event": "end"}\n'

@@ -122,7 +122,8 @@ def test_after_a_rock_the_force_is_raised_by_the_way_that_it_slid(slides_mm, is_
     rig.gripper.grip(0.2)
     hold = RockedHold(slides_mm, is_told=is_told)
     before_m = rig.arm.pose().position_m
-    _rock(rig, hold, load("fruit")[0].verify, 1.0, 0.1 * SIDE_M, before_m[2] + 0.004)
+    goes_on = _rock(rig, hold, load("fruit")[0].verify, 1.0, 0.1 * SIDE_M, before_m[2] + 0.004)
+    assert goes_on is (len(factors) < ROCKED_TIMES)  # nothing makes the force grow here
     assert hold.asked_n == pytest.approx([0.2 * factor for factor in factors])
     assert hold.num_hung == len(factors)  # its place is another one after each slide
     assert hold.num_rests >= 1
@@ -149,3 +150,11 @@ def test_without_shear_nothing_moves():
     rig, found, _ = lifted_off(0.6, sensor="gelsight_mini")
     assert (found.problem, found.floor_n) == ("", 0.0)
     assert math.isclose(rig.arm.pose().position_m[2], 0.20)
+
+
+def test_what_slides_at_the_limit_is_rocked_no_harder_and_does_not_fall():
+    rig = build("fruit", SEED, sensor_name="taxels", start_offset_mm=(0.0, 0.0))
+    holds_n = rig.grasp.fingers.slip_minimum_n([(0.0, 0.0)]) / rig.gripper.force_gain
+    rig, found, _ = lifted_off(1.0, limit_n=2 * 1.2 * holds_n)  # the guard sends half of it
+    assert found.problem == "it slides on at the largest force that its limit allows"
+    assert rig.grasp.hangs and not rig.truth().dropped

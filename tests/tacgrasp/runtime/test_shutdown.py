@@ -1,10 +1,19 @@
-"""What the record calls held."""
+"""What the record calls held, and the end with devices that fail in their own ways."""
+
+import os
+import signal
+from types import SimpleNamespace
 
 import pytest
 
+from cltp.tactile.cloud import Stamp
+from primitives import RobotError
+from primitives.devices import GripperState
 from sim.grasp.rig import build
+from tacgrasp.config.layers import load
 from tacgrasp.config.schema import VerifyConfig
-from tacgrasp.runtime.shutdown import read_truth
+from tacgrasp.runtime.outcome import EndOfEpisode, EndReason
+from tacgrasp.runtime.shutdown import Ending, close, read_truth
 
 AT_ONCE, SLOWLY = VerifyConfig(), VerifyConfig(lift_off_mm=1.0)
 
@@ -34,3 +43,83 @@ def test_open_fingers_and_dropped_bodies_hold_nothing(verify: VerifyConfig) -> N
     dropped = read_truth(rig, verify)
     assert facts is not None and dropped is not None
     assert not facts["held"] and not dropped["held"]
+
+
+class Devices:
+    """Arm and gripper that note their calls; some of which raise.
+
+    Args:
+        errors: What a call raises, by its name.
+        interrupted: Call during which the operator presses Ctrl-C.
+    """
+
+    def __init__(self, errors, interrupted=""):
+        self.calls, self._errors, self._interrupted = [], errors, interrupted
+        self.arm = SimpleNamespace(stop=lambda: self._call("arm.stop"))
+        self.gripper = SimpleNamespace(
+            stop=lambda: self._call("gripper.stop"),
+            state=lambda: GripperState(width_m=0.03, force_n=1.0, closed=True),
+            open_by=lambda _: self._call("open_by"),
+        )
+        self.clock = SimpleNamespace(stamp=lambda: Stamp(monotonic_s=1.0, wall_s=1.0))
+        self.commands = tuple
+
+    def truth(self):
+        self._call("truth")
+
+    def _call(self, name):
+        self.calls.append(name)
+        if name == self._interrupted:
+            os.kill(os.getpid(), signal.SIGINT)
+        if name in self._errors:
+            raise self._errors[name]
+
+
+def ended(rig, ends):
+    steps = SimpleNamespace(
+        record_cut_short=lambda *_: None,
+        may_hang=False,
+        num_actions=7,
+        num_steps=8,
+        elapsed_s=3.0,
+        peak_felt_n=None,
+        force_mark="",
+        force_residual=None,
+        gain=None,
+    )
+    return Ending(
+        rig=rig,
+        config=load("strawberry")[0],
+        recorder=SimpleNamespace(finish=ends.append),
+        steps=steps,
+        end=EndOfEpisode(EndReason.TIMEOUT, "180 s"),
+        last_step=None,
+        verification=None,
+    )
+
+
+@pytest.mark.parametrize(
+    ("name", "told"),
+    [
+        ("arm.stop", "the arm could not be stopped: OSError: unplugged"),
+        ("gripper.stop", "the gripper could not be stopped: OSError: unplugged"),
+        ("open_by", "the gripper could not be opened: OSError: unplugged"),
+        ("truth", ""),
+    ],
+)
+def test_whatever_a_device_raises_the_others_are_made_safe_and_the_record_ends(name, told):
+    rig, ends = Devices({name: OSError("unplugged")}), []
+    outcome = close(ended(rig, ends))
+    assert rig.calls == ["truth", "arm.stop", "gripper.stop", "open_by"]
+    assert outcome.reason is (EndReason.FAULT if told else EndReason.TIMEOUT)
+    assert told in outcome.message
+    assert [(end.reason, end.message) for end in ends] == [(outcome.reason, outcome.message)]
+
+
+def test_an_interrupt_while_the_gripper_opens_does_not_hide_how_it_ended(caplog):
+    ends = []
+    rig = Devices({"open_by": RobotError("the fingers are stuck")}, interrupted="open_by")
+    with pytest.raises(KeyboardInterrupt):
+        close(ended(rig, ends))
+    assert "the gripper could not be opened: the fingers are stuck" in caplog.text
+    assert ends[0].reason == "fault"

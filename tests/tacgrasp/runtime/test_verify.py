@@ -95,3 +95,11 @@ def test_a_shake_is_level_however_the_sensor_is_mounted() -> None:
     mounted = PadConfig(x_axis=TURNED_PAD_X_IN_TCP, y_axis=TURNED_PAD_Y_IN_TCP)
     assert level_axis(START_POSE, upright) == pytest.approx([1.0, 0.0, 0.0])
     assert level_axis(START_POSE, mounted) == pytest.approx([-1.0, 0.0, 0.0])
+
+
+def test_a_shake_of_a_tilted_pad_is_level_too() -> None:
+    sine, cosine = math.sin(0.4), math.cos(0.4)
+    x_axis = cosine * np.array(PAD_X_IN_TCP) + sine * np.array(PAD_Y_IN_TCP)
+    y_axis = cosine * np.array(PAD_Y_IN_TCP) - sine * np.array(PAD_X_IN_TCP)
+    tilted = PadConfig(x_axis=tuple(x_axis), y_axis=tuple(y_axis))
+    assert level_axis(START_POSE, tilted) == pytest.approx([1.0, 0.0, 0.0])
