@@ -167,28 +167,29 @@ class StateHeads(nn.Module):
             return pooled.new_ones(1)
         return torch.where(self.lengths_along, pooled[:, -1:].exp(), 1.0)
 
-    def calibrate(self, *read: tuple[Tensor, Targets]) -> None:
+    def calibrate(self, *read: tuple[Tensor, Targets], series: Tensor) -> None:
         """Set the intervals by contacts that nothing was learned from: fit by half, widen by half.
 
-        With fewer than ``LEAST_CONTACTS`` that touch, they stay as they are.
+        Presses of one series are much alike, so that a half has all of a series or nothing of it.
+        With fewer than ``LEAST_CONTACTS`` that touch, the intervals stay as they are.
 
         Args:
             read: Pooled tokens (N, 2 C) and labels of the contacts, under one kind of noise each.
                 The intervals are fitted by the first, and are wide enough for every one. If there
                 are several, row n is the same contact in all of them.
+            series: Number of the series of each contact, shape (N,).
         """
         touching = [labels.touching > 0 for _, labels in read]
         count = int(touching[0].sum())
         if self.widening is None or count < LEAST_CONTACTS:
             return
         self.widening.fill_(1.0)
-        rest = slice(None)
+        rest = torch.ones(len(series), dtype=torch.bool)
         if count >= 2 * FIT_CONTACTS:
             pooled, labels = read[0]
-            fitted = touching[0].nonzero()[:, 0]
-            fitted = fitted[fitted % 2 == 0]
+            rest = series.unique(return_inverse=True)[1] % 2 == 1
+            fitted = touching[0] & ~rest
             self._fit(pooled[fitted].detach(), labels.numbers[fitted])
-            rest = slice(1, None, 2)
         factors = [
             self._needed(pooled[rest][touched[rest]], labels.numbers[rest][touched[rest]])
             for (pooled, labels), touched in zip(read, touching, strict=True)

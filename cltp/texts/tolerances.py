@@ -1,15 +1,16 @@
 """Tolerances that noise puts on the numbers of a contact: the '±' of numeric captions.
 
 Each tolerance is one standard deviation of the error of an ideal estimate from one noisy frame,
-with the noise of ``cltp.tactile.sensor_noise`` and everything else known. A real estimate is worse.
+with the noise of a GelSight Mini (``MINI_SPREAD``), whatever the sensor, and everything else known.
+A real estimate is worse.
 
 The formulas are our derivation for a cap of depth d and footprint a² = area / π on a smooth drift
-of standard deviation s, correlation exp(-r²/ℓ²) with ℓ uniform in 3-8 mm; a unit's depth scale
+of standard deviation s, correlation exp(-r²/ℓ²) with ℓ uniform in 2.5-8 mm; a unit's depth scale
 errs by k and its tilt by t:
 
 - depth: the drift at the deepest point, and the scale: √(s² + (k d)²);
 - position: a slope g moves the deepest point of d (1 - r²/a²) by g a² / 2d; the drift's slope has
-  the variance 2 s² / ℓ², whose mean over ℓ is 2 s² / (3 · 8). The cloud's sampling adds to it;
+  the variance 2 s² / ℓ², whose mean over ℓ is 2 s² / (2.5 · 8). The cloud's sampling adds to it;
 - area: the footprint's edge, where the cap has the slope 2d / a, moves by s a / 2d, and the area by
   its circumference times that: relatively s / d;
 - force: it follows the displaced volume, A d / 2: relatively √(k² + (2 s / d)²).

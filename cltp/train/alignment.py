@@ -24,7 +24,7 @@ from cltp.encoder.heads import StateHeads, Targets, targets
 from cltp.encoder.losses import CltpLoss
 from cltp.errors import TouchError
 from cltp.train.calibration import calibrate_heads, fit_force
-from cltp.train.clip_feature_cache import FrozenFeatures
+from cltp.train.clip_feature_cache import FrozenFeatures, fingerprint
 from cltp.train.finite_check import check_batch
 from cltp.train.recipes import CLTP_SCHEDULE, CltpRecipe, Schedule
 from cltp.train.stage import Stage, TrainingRun
@@ -80,6 +80,7 @@ def train_cltp(
         "data": data.checksum(),
         "config": config.identity,
         "variant": f"{recipe.identity} {with_images} False {noise}",
+        "towers": fingerprint(towers),
     }
     if start is not None:
         identity["start"] = manifest_digest(start)

@@ -35,6 +35,7 @@ from cltp.encoder.heads import targets
 from cltp.encoder.losses import ContrastiveLoss
 from cltp.encoder.masked_modelling import PointBert, PointMae, ShapeWords, patch_size, patches
 from cltp.errors import TouchError
+from cltp.train.clip_feature_cache import fingerprint
 from cltp.train.finite_check import check_batch
 from cltp.train.methods import ALIGNED_METHODS, IMAGE_METHODS, TRAINING_ORDER
 from cltp.train.recipes import Schedule
@@ -106,10 +107,17 @@ class _Work:
     augmentation: Augmentation
 
     def train(
-        self, name: str, model: nn.Module, losses: Losses, schedule: Schedule | None = None
+        self,
+        name: str,
+        model: nn.Module,
+        losses: Losses,
+        schedule: Schedule | None = None,
+        towers: Towers | None = None,
     ) -> None:
         sizes, variant = self.config.identity, self.augmentation.identity
         identity = {"data": self.data.checksum(), "config": sizes, "variant": variant}
+        if towers is not None:
+            identity["towers"] = fingerprint(towers)
         stage = Stage(name, self.run, model, schedule or self.schedule, identity)
         layout = self.config.variant.layout
         sampler = Sampler(self.data, self.augmentation, seed=self.run.seed, layout=layout)
@@ -188,7 +196,7 @@ def _train_vision(method: str, encoder: TactileEncoder, towers: Towers, work: _W
         t2l = learner.contrast(vision, language, numbers[:, None] == numbers[None])
         return {"t2l": t2l, "temperature": 1 / learner.contrast.scale.detach()}
 
-    work.train(method, learner, losses)
+    work.train(method, learner, losses, towers=towers)
 
 
 def surface_texts(method: str, data: ContactDataset, batch: Batch) -> list[str]:

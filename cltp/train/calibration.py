@@ -60,7 +60,8 @@ def calibrate_heads(
     sampler = Sampler(data, augmentation, seed=run.seed + 1, layout=layout)
     varied = _read(encoder, sampler, chosen, measured_mm)
     sampler = Sampler(data, NOISY, seed=run.seed + 1, layout=layout)
-    heads.calibrate(varied, _read(encoder, sampler, chosen))
+    series = np.tile(data.column("series")[chosen], CALIBRATION_VIEWS)
+    heads.calibrate(varied, _read(encoder, sampler, chosen), series=torch.from_numpy(series))
     heads.calibrate_contradiction(*varied, torch.tensor(measured_mm))
 
 
@@ -80,13 +81,13 @@ def _read(
     """
     pooled, labels = [], []
     with torch.no_grad():
-        for step, first in enumerate(range(0, CALIBRATION_VIEWS * len(chosen), BATCH)):
-            drawn = chosen[np.arange(first, first + BATCH) % len(chosen)]
-            batch = sampler.batch(drawn, step)
+        drawn = np.tile(chosen, CALIBRATION_VIEWS)
+        for step, first in enumerate(range(0, len(drawn), BATCH)):
+            batch = sampler.batch(drawn[first : first + BATCH], step)
             pooled.append(encoder(torch.from_numpy(batch.points)).pooled)
             labels.append(targets(batch.states))
             if measured_mm is not None:
-                clouds = (batch.cloud(row) for row in range(len(drawn)))
+                clouds = (batch.cloud(row) for row in range(len(batch.points)))
                 measured_mm += [contact_state(each, in_contact=True).depth_mm for each in clouds]
     true = Targets(*(torch.cat(parts) for parts in zip(*labels, strict=True)))
     return torch.cat(pooled), true
@@ -111,7 +112,9 @@ def fit_force(
         encoder: The encoder; it is not changed.
         heads: Its heads.
         augmentation: How contacts are varied.
-        start: Force head of weights that were trained on; it stays, and its intervals are set anew.
+        start: Force head of weights that were trained on. It was fitted by what their heads read,
+            and is fitted anew by ``FORCE_CONTACTS``; where the data has fewer, it stays, and its
+            intervals are set anew.
     """
     if encoder.config.variant.layout != GRID or not heads.has_intervals:
         return
@@ -123,11 +126,13 @@ def fit_force(
     )
     if start is None and len(learned) < LEAST_FORCE_CONTACTS:
         return
+    stays = start is not None and len(learned) < FORCE_CONTACTS
     with torch.random.fork_rng(devices=[]):
         torch.manual_seed(run.seed)
-        head, heads.force = start or ForceHead(), None
+        head = start if start is not None and stays else ForceHead()
+    heads.force = None
     sampler = Sampler(data, augmentation, seed=run.seed + 2, layout=GRID)
-    if start is None:
+    if not stays:
         rows = learned[:FORCE_CONTACTS]
         inputs, forces, rows = _force_samples(run, encoder, heads, sampler, rows)
         head.fit(inputs, forces, even_weights(_thicknesses(data, rows)), seed=run.seed)
@@ -151,6 +156,8 @@ def _force_samples(
         batch = sampler.batch(rows[first : first + BATCH], step)
         labels = targets(batch.states)
         touched = labels.touching > 0
+        if not touched.any():
+            continue
         points = torch.from_numpy(batch.points)[touched]
         with torch.no_grad():
             inputs.append(force_inputs(points, heads(encoder(points).pooled)))

@@ -32,7 +32,8 @@ class Workers:
         index: Number of this process, from 0.
         count: Number of processes.
         wait: Returns when all processes have called it.
-        autocast: A context in which matrix products are computed in the chosen precision.
+        precision: Out of ``PRECISIONS``.
+        autocast: A context in which matrix products are computed in this precision.
     """
 
     device: torch.device = field(
@@ -41,6 +42,7 @@ class Workers:
     index: int = 0
     count: int = 1
     wait: Callable[[], None] = lambda: None
+    precision: str = "no"
     autocast: Callable[[], AbstractContextManager[Any]] = nullcontext
 
     @property
@@ -91,6 +93,7 @@ def joined_workers(precision: str = "no") -> Workers:
         index=accelerator.process_index,
         count=accelerator.num_processes,
         wait=accelerator.wait_for_everyone,
+        precision=precision,
         autocast=accelerator.autocast,
     )
 

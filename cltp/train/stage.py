@@ -120,6 +120,8 @@ class Stage:
         }
         if run.also_fraction is not None:  # checkpoints without one stay good
             shared["also_fraction"] = run.also_fraction
+        if run.workers.precision != "no":
+            shared["precision"] = run.workers.precision
         self._identity = json.dumps({**identity, **shared}, sort_keys=True)
         self._parameters = [p for p in model.parameters() if p.requires_grad]
         self._optimiser = Optimiser(model, schedule)

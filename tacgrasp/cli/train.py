@@ -245,12 +245,14 @@ class RefitFlags:
     Attributes:
         weights: Folder of weights, or of one method.
         data: Folder of contacts, which must exist.
+        coarse: Fraction of contacts that are felt by a coarse sensor, as in their training.
         seed: Random seed of contacts, noise and fit.
         threads: Threads of torch; one for each core when not given.
     """
 
     weights: Path
     data: Path = Path("runs/full")
+    coarse: float = 0.0
     seed: int = 0
     threads: int | None = None
 
@@ -276,18 +278,14 @@ class TrainForceFlags(RefitFlags):
     def _fit(self, command: str, report: ProgressReport) -> None:
         from tacgrasp.training.force import train_force
 
-        train_force(self.weights, self.data, command, seed=self.seed, report=report)
+        train_force(
+            self.weights, self.data, command, coarse=self.coarse, seed=self.seed, report=report
+        )
 
 
 @dataclass(frozen=True)
 class TrainIntervalsFlags(RefitFlags):
-    """Set the intervals of weights' numbers anew; what is read stays as it is.
-
-    Attributes:
-        coarse: Fraction of contacts that are felt by a coarse sensor, as in their training.
-    """
-
-    coarse: float = 0.0
+    """Set the intervals of weights' numbers anew, and fit the force to them; the rest stays."""
 
     def _fit(self, command: str, report: ProgressReport) -> None:
         from tacgrasp.training.force import train_intervals

@@ -20,6 +20,7 @@ from __future__ import annotations
 
 import csv
 import dataclasses
+import itertools
 import math
 import os
 import re
@@ -167,7 +168,8 @@ def _write(
     counts = {origin: dict.fromkeys(slots, 0) for origin in origins}
     lines: dict[str, int] = {}
     untouched = 0
-    held_out = _held_out(rows, source.held_out, source.seed)
+    series = _series(rows)
+    splits = _splits(rows, series, source.held_out, source.seed)
     about = {
         "made_by": "tacgrasp data import",
         "contacts": str(len(rows)),
@@ -175,14 +177,13 @@ def _write(
         "labels": source.labels.name,
     }
     with DatasetWriter(folder, shard_size=SHARD_CONTACTS, about=about) as writer:
-        for number, row in enumerate(rows):
+        for row, one in zip(rows, series, strict=True):
             name = row.cells.get("file", "no file")
             try:
                 path = os.path.normpath(name)
                 if path in lines:
                     raise RowError(f"the same file as line {lines[path]}")
-                series = _series(row, number)
-                contact = _contact(source, sensor, row, series, held_out=series in held_out)
+                contact = _contact(source, sensor, row, one, splits[one])
             except (RowError, TouchError) as error:
                 text = str(error).removeprefix(f"{source.folder / name}: ")
                 bad.append(f"{source.labels.name} line {row.line} ({name}): {text}")
@@ -202,20 +203,49 @@ def _origin(contact: Contact, slot: str) -> str:
     return "unknown" if getattr(contact.state, slot) is None else "given"
 
 
-def _series(row: _Row, number: int) -> str:
-    """The series of a row, the ``number``-th of the table."""
-    return row.cells.get("series", str(number))
+def _series(rows: Sequence[_Row]) -> list[str]:
+    """The series of each row: a number, the same for '8' and '08', or what is no number.
+
+    A row that names none is one of its own.
+    """
+    named = [row.cells.get("series", "") for row in rows]
+    named = [str(int(each)) if _is_number(each) else each for each in named]
+    free = itertools.count(1 + max((int(each) for each in named if _is_number(each)), default=-1))
+    return [each or str(next(free)) for each in named]
 
 
-def _held_out(rows: Sequence[_Row], fraction: float, seed: int) -> set[str]:
-    """Series whose contacts are not to be learned from, of those without a split."""
-    series = [_series(row, number) for number, row in enumerate(rows) if "split" not in row.cells]
-    drawn = np.random.default_rng(seed).permutation(list(dict.fromkeys(series)))
-    return set(drawn[: round(fraction * len(drawn))].tolist())
+def _is_number(series: str) -> bool:
+    return series.isascii() and series.isdigit() and int(series) < 2**62
+
+
+def _splits(
+    rows: Sequence[_Row], series: Sequence[str], fraction: float, seed: int
+) -> dict[str, str]:
+    """The split of each series: what a row of it names, or drawn.
+
+    Args:
+        rows: The table.
+        series: The series of each row.
+        fraction: Fraction of the series without a split that is not to be learned from.
+        seed: Seed of the draw.
+    """
+    named = {
+        one: row.cells["split"].lower()
+        for row, one in zip(rows, series, strict=True)
+        if "split" in row.cells
+    }
+    others = [one for one in dict.fromkeys(series) if one not in named]
+    drawn = np.random.default_rng(seed).permutation(others).tolist()
+    held_out = round(fraction * len(drawn))
+    return (
+        named
+        | dict.fromkeys(drawn[:held_out], Split.TEST.value)
+        | dict.fromkeys(drawn[held_out:], Split.TRAIN.value)
+    )
 
 
 def _contact(
-    source: ImportRequest, sensor: SensorSpec, row: _Row, series: str, *, held_out: bool
+    source: ImportRequest, sensor: SensorSpec, row: _Row, series: str, split: str
 ) -> Contact:
     cells = row.cells
     if row.has_extra_cells:
@@ -237,8 +267,10 @@ def _contact(
             f"heights from {lowest:.2f} to {highest:+.2f} mm rise more than they sink; expected "
             "+ into the gel: is the sign turned, or is the untouched gel not at 0?"
         )
-    if not series.isdigit() or int(series) >= 2**62:
+    if not _is_number(series):
         raise RowError(f"series must be a number from 0, got {series!r}")
+    if cells.get("split", split).lower() != split:
+        raise RowError(f"series {series} is in the splits {cells['split']!r} and {split!r}")
     cloud = cloud_from_heights(heights, sensor)
     # A tip that is finer than a cell of the measurement touches as well.
     is_told = source.least_depth_mm != NO_CONTACT_MM or any(name in cells for name in DIMENSIONS)
@@ -253,7 +285,7 @@ def _contact(
         state=state,
         object=cells.get("object", "unknown"),
         series=int(series),
-        split=_word(Split, "split", cells) or (Split.TEST if held_out else Split.TRAIN),
+        split=_word(Split, "split", {"split": split}) or Split.TRAIN,
         measured=measured,
     )
 

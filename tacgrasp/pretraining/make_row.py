@@ -99,6 +99,7 @@ class RowRequest:
         """Folder of the rows with the same towers; what is tried out has one of its own."""
         tried = {"samples": self.samples, "contacts": self.limit}
         parts = [f"-{value}-{name}" for name, value in tried.items() if value is not None]
+        parts += [] if self.precision == PRECISION else [f"-precision-{self.precision}"]
         return self.out / "".join([f"{self.recipe.towers}-seed{self.seed}", *parts])
 
     @property

@@ -24,7 +24,13 @@ from tacgrasp.training.upkeep import write_manifests
 
 
 def train_force(
-    weights: Path, data: Path, command: str, *, seed: int = 0, report: ProgressReport = silent
+    weights: Path,
+    data: Path,
+    command: str,
+    *,
+    coarse: float = 0.0,
+    seed: int = 0,
+    report: ProgressReport = silent,
 ) -> None:
     """Fit a force head and write the encoder with it, the manifests and the model card.
 
@@ -32,6 +38,7 @@ def train_force(
         weights: Folder of weights, or of one method, with an encoder on the grid of all points.
         data: Data set of contacts.
         command: The command line, for the model card.
+        coarse: Fraction of contacts that are felt by a coarse sensor, as in training.
         seed: Random seed of the choice of contacts, of the noise and of the fit.
         report: Receives the progress.
 
@@ -44,7 +51,8 @@ def train_force(
     heads.force = None
     contacts = ContactDataset(data)
     run = TrainingRun(data=data, out=weights, seed=seed, report=report)
-    fit_force(run, encoder.eval(), heads.eval(), LEARNING_NOISE)
+    noise = replace(LEARNING_NOISE, coarse=coarse)
+    fit_force(run, encoder.eval(), heads.eval(), noise)
     if heads.force is None:
         raise UsageError(
             f"a force head needs an encoder on the grid of all points, with intervals, and "
@@ -64,7 +72,10 @@ def train_intervals(
     seed: int = 0,
     report: ProgressReport = silent,
 ) -> None:
-    """Set the intervals of an encoder's numbers anew and write it; what is read stays as it is.
+    """Set the intervals of an encoder's numbers anew, and write it; what else it reads stays.
+
+    A force head reads the intervals too, and is fitted to them where the data has as many contacts
+    as it was fitted by (``fit_force``).
 
     Args:
         weights: Folder of weights, or of one method, with an encoder that reads intervals.

@@ -92,7 +92,9 @@ def train(request: QueryClassifierRequest, console: Console) -> float:
     classes = tuple(sorted(frequent | whole))
     numbers = {name: number for number, name in enumerate(classes)}
     known = [(text.split(), numbers[name]) for text, name in drawn if name in numbers]
-    held_out, learned = known[:HELD_OUT], known[HELD_OUT:]
+    held_out = known[:HELD_OUT]
+    texts = {tuple(words) for words, _ in held_out}
+    learned = [one for one in known[HELD_OUT:] if tuple(one[0]) not in texts]
     torch.manual_seed(request.seed)
     model = TextClassifier(ClassifierConfig(classes=classes))
     with Bar() as report:

@@ -1,5 +1,7 @@
 """``tacgrasp data import``: a person's own touches become contacts, or nothing does."""
 
+import shutil
+
 import numpy as np
 import pytest
 
@@ -228,6 +230,25 @@ def test_a_fraction_of_the_series_is_held_out_whole(touches):
     assert len(held) == 2
     assert all((split[series == one] == "test").all() for one in held)
     assert list(split[-2:]) == ["train", "validation"]  # as the table says
+
+
+def test_a_series_is_never_divided(touches):
+    rows = [("0.npy", "8", ""), ("1.npy", "08", ""), ("2.npy", "9", "validation")]
+    rows += [("3.npy", "9", ""), ("4.npy", "", ""), ("5.npy", "0", "")]
+    for name, _, _ in rows:
+        np.save(touches / name, 0.5 * np.exp(-((X - int(name[0]) / 4) ** 2 + Y**2) / 6))
+    table = "file,series,split\n" + "".join(f"{','.join(row)}\n" for row in rows)
+    for seed in range(4):
+        code, out = imported(touches, table, "--held-out", "0.4", "--seed", str(seed))
+        assert code == 0
+        data = ContactDataset(out)
+        assert data.column("series").tolist() == [8, 8, 9, 9, 10, 0]
+        split = data.column("split")
+        assert split[0] == split[1]
+        assert split[2] == split[3] == "validation"
+        shutil.rmtree(out)
+    code, _ = imported(touches, table + "map.npy,8,test\nlow.npy,8,train\n")
+    assert code == 2
 
 
 @pytest.mark.parametrize("fraction", ["1", "-0.1"])

@@ -94,7 +94,7 @@ def test_a_row_is_trained_measured_and_written_and_not_trained_again(
     even = dataclasses.replace(ROWS["cltp_even"], preset="tiny")
     monkeypatch.setitem(ROWS, "cltp_even", even)  # type: ignore[index]
     monkeypatch.setattr(Stage, "plot", lambda _: None)
-    group = tmp_path / "rows" / "paper-seed3-128-samples-4-contacts"
+    group = tmp_path / "rows" / "paper-seed3-128-samples-4-contacts-precision-no"
     group.mkdir(parents=True)
     (group / "clip").symlink_to(clip)
     flags = ("--seed", "3", "--samples", "128", "--limit", "4")
@@ -183,8 +183,8 @@ def test_each_row_asks_for_its_own_training(
             assert "clip" not in asked  # they learn from points alone
         else:
             assert (asked["clip"], asked["clip_steps"]) == (recipe.clip, 700)
-    assert Path("paper-captions-seed1/papers_losses") in folders
-    assert Path("full-seed1/cltp_full") in folders
+    assert Path("paper-captions-seed1-precision-no/papers_losses") in folders
+    assert Path("full-seed1-precision-no/cltp_full") in folders
     assert len(folders) == len(trained)
 
 
