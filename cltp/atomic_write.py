@@ -52,8 +52,9 @@ def write_atomically(path: Path, content: str | bytes) -> None:
 def new_folder(folder: Path) -> Iterator[Path]:
     """Give an empty temporary folder beside ``folder``; on success it becomes ``folder``.
 
-    Its name is ``folder``'s with ``.part`` behind it; what an earlier writing that was killed left
-    there is removed first. One process alone may write a folder at a time.
+    Its name is ``folder``'s with a dot before and ``.part`` behind it, which nobody else's folder
+    has; what an earlier writing that was killed left there is removed first. One process alone may
+    write a folder at a time.
 
     Args:
         folder: The folder to write, which does not exist yet; its parents are created.
@@ -61,7 +62,7 @@ def new_folder(folder: Path) -> Iterator[Path]:
     Raises:
         OSError: It can't be written. The temporary folder is removed, as after any other error.
     """
-    part = folder.with_name(f"{folder.name}.part")
+    part = folder.with_name(f".{folder.name}.part")
     shutil.rmtree(part, ignore_errors=True)
     try:
         part.mkdir(parents=True)

@@ -128,6 +128,7 @@ class StrawberryEnv(gymnasium.Env[Any, Any]):
             if not isinstance(asked, Outcome):
                 break
             if "seed" in options:
+                self.close()
                 raise UsageError(f"the episode of seed {world} ends before anything is decided")
         self._last, self._potential = self._observed(*asked)
         return self._last, self._info(None)
@@ -265,9 +266,14 @@ class _Episode:
         return read_truth(self.rig, self.config.verify)
 
     def next(self) -> tuple[Observation, Contract] | Outcome:
-        """The next question to the agent, or the end."""
+        """The next question to the agent, or the end.
+
+        Raises:
+            Exception: As the loop has, each time that it is asked.
+        """
         asked = self._asked.get()
         if isinstance(asked, Exception):
+            self._asked.put(asked)
             raise asked
         return asked
 

@@ -16,6 +16,7 @@ from typing import Any, TypeVar
 from pydantic import TypeAdapter
 from rich.console import Console
 
+from cltp.tactile.shear.slip import MODELS
 from tacgrasp.base.errors import UsageError
 from tacgrasp.benchmarks.figures import write_figures
 from tacgrasp.benchmarks.pool import each_result
@@ -82,6 +83,14 @@ def weights_sum(weights: Path) -> str:
     """What names weights: the checksum of their manifests, which hold those of their files."""
     total = hashlib.sha256()
     for path in sorted(weights.glob("*/manifest.json")):
+        total.update(path.read_bytes())
+    return total.hexdigest()[:16]
+
+
+def shear_models_sum() -> str:
+    """What names the models that tell slips and reserves: the checksum of their files."""
+    total = hashlib.sha256()
+    for path in sorted(MODELS.glob("*.npz")):
         total.update(path.read_bytes())
     return total.hexdigest()[:16]
 

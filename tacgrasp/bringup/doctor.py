@@ -45,7 +45,7 @@ def rig_findings(config: RunConfig, *, soak_s: float = 0.0) -> Sequence[Finding]
     """
     findings = [*plugin_findings(), *_file_findings(config)]
     if config.hardware is None:
-        detail = "simulated: there is nothing to connect"
+        detail = "simulated: there is nothing to connect" + (", or to soak" if soak_s else "")
         return [*findings, finding("rig", "devices", True, detail), _drawn_force(config)]
     findings += _library_findings()
     if config.devices == "hardware":

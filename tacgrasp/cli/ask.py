@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import json
 import os
 import sys
@@ -208,6 +209,8 @@ def _answer_lines(
         UsageError: There is no question.
     """
     is_asked, code = False, 0
+    if isinstance(sys.stdin, io.TextIOWrapper):  # what is no UTF-8 is no word that is known
+        sys.stdin.reconfigure(errors="replace")
     for number, line in enumerate(sys.stdin, start=1):
         if not line.strip():
             show_blank()

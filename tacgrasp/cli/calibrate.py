@@ -44,6 +44,7 @@ class CalibrateGelsightFlags:
         presses: Number of presses to calibrate on, those that lie farthest from each other; the
             others are measured. All are calibrated on if omitted.
         dots: Whether the gel has the 7 × 9 dots of gelsight_mini_markers; they are painted over.
+        overwrite: Replace an existing file.
     """
 
     balls: Path
@@ -56,6 +57,7 @@ class CalibrateGelsightFlags:
     seed: int = 0
     presses: int | None = None
     dots: bool = False
+    overwrite: bool = False
 
 
 def main(argv: Sequence[str]) -> int:
@@ -73,7 +75,7 @@ def main(argv: Sequence[str]) -> int:
 
 
 def _gelsight_mini(flags: CalibrateGelsightFlags) -> None:
-    check_ball_flags(flags.diameter_mm, flags.out)
+    check_ball_flags(flags.diameter_mm, flags.out, overwrite=flags.overwrite)
     date = parse_date(flags.date).isoformat()
 
     from cltp.sensing.calibration import Calibration, calibrated_as, save_calibration

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from tacgrasp.base.errors import UsageError
-from tacgrasp.base.result_file import check_ending
+from tacgrasp.base.result_file import check_ending, check_kept
 from tacgrasp.cli.calibrate_gripper import parse_date
 
 if TYPE_CHECKING:
@@ -31,6 +31,7 @@ class CalibrateGainsFlags:
         out: File to write.
         unit: Name of this unit, its serial number for instance; stored in the file.
         date: Date of the frames, like 2026-01-31; today if omitted.
+        overwrite: Replace an existing file.
     """
 
     balls: Path
@@ -40,24 +41,26 @@ class CalibrateGainsFlags:
     out: Path = Path("gelsight_mini.safetensors")
     unit: str = "unnamed"
     date: str = ""
+    overwrite: bool = False
 
 
-def check_ball_flags(diameter_mm: float, out: Path) -> None:
+def check_ball_flags(diameter_mm: float, out: Path, *, overwrite: bool) -> None:
     """Check what every calibration on presses of a ball is told.
 
     Raises:
-        UsageError: No such ball, no folder for ``out``, or ``out`` is no .safetensors.
+        UsageError: No such ball, no folder for ``out``, or ``out`` is no .safetensors, or exists.
     """
     if not 1.0 <= diameter_mm <= 100.0:
         raise UsageError(f"--diameter-mm must be 1 to 100, got {diameter_mm}")
     if not out.parent.is_dir():
         raise UsageError(f"--out {out}: {out.parent} is no folder")
     check_ending(out, ".safetensors")
+    check_kept(out, overwrite=overwrite)
 
 
 def run(flags: CalibrateGainsFlags) -> int:
     """Measure and print the gains, write the corrected calibration; 1 where they don't explain."""
-    check_ball_flags(flags.diameter_mm, flags.out)
+    check_ball_flags(flags.diameter_mm, flags.out, overwrite=flags.overwrite)
     date = parse_date(flags.date).isoformat()
 
     from dataclasses import replace

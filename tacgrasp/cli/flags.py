@@ -195,13 +195,14 @@ def writable(path: Path | None, *endings: str, flag: str = "--json") -> Path | N
     if path is None:
         return None
     check_ending(path, *(endings or (".json",)), flag=flag)
-    is_new = not path.exists()
+    target = path.resolve()
+    is_new = not target.exists()
     try:
-        if is_new or path.is_file() or path.is_dir():
-            with path.open("a", encoding="utf-8"):
+        if is_new or target.is_file() or target.is_dir():
+            with target.open("a", encoding="utf-8"):
                 pass
         if is_new:
-            path.unlink()
+            target.unlink()
     except OSError as error:
         raise UsageError(f"{flag} {path} can't be written: {error.strerror}") from None
     check_replaceable(path, flag=flag)

@@ -17,8 +17,9 @@ class ServeFlags:
     """Serve a policy to robots and programs, until Ctrl-C.
 
     Attributes:
-        policy: Policy that decides: llm, rules, or a plugin's.
-        weights: Folder of the language model's weights; by default the shipped ones.
+        policy: Policy that decides: llm, rules, or a plugin's; by default that of the rig's file.
+        weights: Folder of the language model's weights; by default those of the rig's file, else
+            the shipped ones.
         task: Task whose terms an instruction is read with.
         rig: Rig whose gripper and sensor are meant.
         host: Address to listen on; beyond this computer (127.0.0.1) a key is needed.
@@ -27,7 +28,7 @@ class ServeFlags:
         max_clients: Most connections at a time.
     """
 
-    policy: str = "llm"
+    policy: str | None = None
     weights: Path | None = None
     task: str = "strawberry"
     rig: str = "sim"
@@ -52,19 +53,21 @@ def main(argv: Sequence[str]) -> int:
     from tacgrasp.serving.keys import read_key
     from tacgrasp.serving.server import PolicyServer, ServerSettings
 
-    if flags.policy == "remote":
-        raise UsageError("--policy remote asks a server itself; serve what that one serves")
     key = None if flags.key_file is None else read_key(flags.key_file, flag="--key-file")
     settings = ServerSettings(
         host=flags.host, port=flags.port, key=key, max_clients=flags.max_clients
     )
     below, sources = load(flags.task, flags.rig, os.environ)
-    config = below.model_copy(update={"policy": flags.policy, "weights": flags.weights})
+    given = {"policy": flags.policy, "weights": flags.weights}
+    given = {name: value for name, value in given.items() if value is not None}
+    config = below.model_copy(update=given)
+    if config.policy == "remote":
+        raise UsageError("the policy remote asks a server itself; serve what that one serves")
     server = PolicyServer(policy_maker(config), config, sources, settings)
     console = make_console()
 
     def ready(url: str) -> None:
-        console.print(f"serving {flags.policy} for {flags.task} on {url} (Ctrl-C ends it)")
+        console.print(f"serving {config.policy} for {flags.task} on {url} (Ctrl-C ends it)")
         console.file.flush()
 
     try:

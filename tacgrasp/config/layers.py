@@ -11,9 +11,9 @@ from collections.abc import Mapping
 from contextlib import suppress
 from importlib import resources
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
-from pydantic import ValidationError
+from pydantic import BaseModel, ValidationError
 
 from tacgrasp.base.errors import UsageError
 from tacgrasp.base.plugins import load_plugin, names_with, plugins
@@ -22,7 +22,7 @@ from tacgrasp.base.strict_yaml import YamlError, YamlSyntaxError, read_yaml, rea
 from tacgrasp.config.errors import explain, path_of
 from tacgrasp.config.hard_limits import LIMITS, HardLimits
 from tacgrasp.config.hardware import resolve_paths
-from tacgrasp.config.schema import ArmConfig, GripperConfig, RunConfig
+from tacgrasp.config.schema import ArmConfig, GripperConfig, LlmConfig, RunConfig
 
 ENV_PREFIX = "TACGRASP_"
 """``TACGRASP_ARM__MAX_STEP_MM=4`` sets ``arm.max_step_mm``."""
@@ -173,16 +173,14 @@ def task_refusal(added: object) -> str:
 
 def _read_layer(kind: str, name: str) -> tuple[str, dict[str, Any], Path]:
     """Name of a layer's file for messages, its fields, and the folder of its relative paths."""
-    folder = Path(str(resources.files("tacgrasp"))) / f"{kind}s"
     source = layer_source(kind, name)
     if name.endswith((".yaml", ".yml")):
         path = Path(name)
-        folder = path.resolve().parent
         if not path.is_file():
             problem = "is a folder" if path.is_dir() else "does not exist"
             raise UsageError(f"{kind} file {name} {problem}")
     elif name in names(kind):
-        path = folder / f"{name}.yaml"
+        path = Path(str(resources.files("tacgrasp"))) / f"{kind}s" / f"{name}.yaml"
     elif kind == "task" and name in plugins("tasks"):
         path = Path(str(load_plugin("tasks", name, task_refusal)))
     else:
@@ -206,7 +204,24 @@ def _read_layer(kind: str, name: str) -> tuple[str, dict[str, Any], Path]:
     for field in ("task", "rig"):
         if field in fields:
             raise UsageError(f"{source}: {field} can't be set in a file; give --{field} instead")
-    return source, fields, folder
+    folder = path.resolve().parent
+    return source, _rooted(RunConfig, fields, folder), folder
+
+
+def _rooted(model: type[BaseModel], layer: dict[str, Any], folder: Path) -> dict[str, Any]:
+    """A file's fields with their relative paths resolved against the file's folder.
+
+    Those of the section ``hardware`` are resolved once its drivers are known.
+    """
+    rooted = dict(layer)
+    for name, value in layer.items():
+        field = model.model_fields.get(name)
+        kinds = () if field is None else (field.annotation, *get_args(field.annotation))
+        if isinstance(value, str) and Path in kinds:
+            rooted[name] = str(folder / value)
+        elif isinstance(value, dict) and LlmConfig in kinds:
+            rooted[name] = _rooted(LlmConfig, value, folder)
+    return rooted
 
 
 def _merge(merged: dict[str, Any], layer: dict[str, Any], source: str, sources: Sources) -> None:

@@ -17,6 +17,7 @@ from cltp.tactile.cloud import TactileCloud
 from cltp.tactile.force_scale import UNCALIBRATED, ForceScale
 from cltp.tactile.sensors import sensor_named
 from policies import Observation
+from policies.instructions.reader import MAX_CHARACTERS
 from primitives.contract import Contract
 from primitives.sense import Interval
 from tacgrasp.episodes.codec import from_json, to_json
@@ -40,7 +41,6 @@ KEYS: Mapping[str, str] = {
 """Every key of a question; the first two are those that a client must give."""
 
 MAX_POINTS = 100_000
-MAX_PROMPT_CHARACTERS = 2000
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -64,7 +64,7 @@ def question_message(
     """The message of a run's step."""
     message = {
         POINTS: np.ascontiguousarray(observation.cloud.points_mm, dtype="<f4"),
-        PROMPT: contract.text[:MAX_PROMPT_CHARACTERS],
+        PROMPT: contract.text[:MAX_CHARACTERS],
         "sensor": observation.cloud.sensor.name,
         "observation/in_contact": observation.in_contact,
         "observation/width_m": observation.width_m,
@@ -100,8 +100,8 @@ def read_question(
     if missing := [key for key in (POINTS, PROMPT) if key not in message]:
         raise WireError(f"the key {missing[0]} is missing: {KEYS[missing[0]]}")
     prompt = message[PROMPT]
-    if not isinstance(prompt, str) or not 0 < len(prompt) <= MAX_PROMPT_CHARACTERS:
-        raise WireError(f"prompt must be a text of 1 to {MAX_PROMPT_CHARACTERS} characters")
+    if not isinstance(prompt, str) or not 0 < len(prompt) <= MAX_CHARACTERS:
+        raise WireError(f"prompt must be a text of 1 to {MAX_CHARACTERS} characters")
     contract = _of_json(Contract, message, "contract") or read_prompt(prompt)
     is_first = message.get("start", False)
     if not isinstance(is_first, bool):

@@ -60,8 +60,12 @@ class RemotePolicy:
         key: str | None = None,
         clock: Callable[[], float] = time.perf_counter,
     ) -> None:
-        parts = urlsplit(url)
-        if parts.scheme not in ("ws", "wss") or not parts.hostname:
+        try:
+            parts = urlsplit(url)
+            is_address = parts.scheme in ("ws", "wss") and parts.hostname and parts.port != 0
+        except ValueError:  # brackets that don't close, a port that is none
+            is_address = False
+        if not is_address:
             raise UsageError(f"--policy-url must be like ws://127.0.0.1:8000, got {url!r}")
         self._url, self._timeout_s, self._key, self._clock = url, timeout_s, key, clock
         self._connection: ClientConnection | None = None

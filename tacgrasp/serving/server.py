@@ -241,6 +241,7 @@ class PolicyServer:
         if question.is_first:
             policy.start()
         observation, contract = question.observation, question.contract
+        _ = contract.terms  # a refused one has no answer, whatever is felt
         if unread := unread_reason(observation):
             decision = Decision(text=f"{unread}.", action=None, success=False, reason=unread)
         elif observation.in_contact is False:

@@ -57,7 +57,7 @@ def test_a_folder_is_copied_with_all_that_lies_in_it(source: Path, tmp_path: Pat
 
 
 def test_what_a_killed_copy_left_is_no_part_of_the_next(source: Path, tmp_path: Path) -> None:
-    left = tmp_path / "copy.part"
+    left = tmp_path / ".copy.part"
     left.mkdir()
     (left / "old.bin").write_bytes(b"half")
     copy_folder(source, tmp_path / "copy")
@@ -83,5 +83,5 @@ def test_a_full_disk_names_the_file_that_found_no_space(
     with pytest.raises(OSError, match="No space left on device") as caught:
         copy_folder(source, tmp_path / "copy")
     assert caught.value.errno == errno.ENOSPC
-    assert caught.value.filename == str(tmp_path / "copy.part" / "a.bin")
+    assert caught.value.filename == str(tmp_path / ".copy.part" / "a.bin")
     assert list(tmp_path.iterdir()) == [source]

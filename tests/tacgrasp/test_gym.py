@@ -183,8 +183,9 @@ def test_an_error_of_the_loop_comes_to_the_agent(env, monkeypatch):
         raise ZeroDivisionError
 
     monkeypatch.setattr(type(env.unwrapped._episode.rig.sensor), "read", lambda *_: break_down())
-    with pytest.raises(ZeroDivisionError):
-        env.step(ACTIONS.index(Primitive.RESET))
+    for _ in range(2):  # again, and it does not wait for what never comes
+        with pytest.raises(ZeroDivisionError):
+            env.step(ACTIONS.index(Primitive.RESET))
 
 
 def test_berries_side_by_side_are_each_their_own():
@@ -210,3 +211,12 @@ def test_berries_in_processes_of_their_own_are_those_of_one_process():
     finally:
         one.close()
         many.close()
+
+
+def test_an_episode_that_ends_before_anything_is_decided_leaves_none(monkeypatch):
+    monkeypatch.setattr("tacgrasp.gym.Outcome", object)  # whatever comes first is an end
+    env = tacgrasp.gym.StrawberryEnv()
+    with pytest.raises(UsageError, match="ends before anything is decided"):
+        env.reset(options={"seed": 6})
+    with pytest.raises(UsageError, match="call reset first"):
+        env.step(0)

@@ -15,7 +15,7 @@ from tacgrasp.benchmarks.gentle.arms import ARMS
 from tacgrasp.benchmarks.gentle.episode import FruitFacts, GentleResult, draw_fruit, run_seed
 from tacgrasp.benchmarks.loop.contestants import PolicyAndForce, language_model, swept_forces_n
 from tacgrasp.benchmarks.loop.strawberry import ROUND, num_verified, still_running, wilson
-from tacgrasp.benchmarks.results_file import SeedResults, weights_sum
+from tacgrasp.benchmarks.results_file import SeedResults, shear_models_sum, weights_sum
 from tacgrasp.benchmarks.settings import GentleSettings
 from tacgrasp.config.layers import load
 from tacgrasp.config.schema import RunConfig
@@ -36,7 +36,8 @@ def run(settings: GentleSettings) -> None:
         UsageError: An unknown arm, or a file with figures of something else.
         TouchError: An unknown sensor, or the language model's weights can't be used.
     """
-    names = [name.strip() for name in settings.arms.split(",")] if settings.arms else list(ARMS)
+    given = settings.arms.split(",") if settings.arms else ARMS
+    names = list(dict.fromkeys(name.strip() for name in given))
     if unknown := [name for name in names if name not in ARMS]:
         raise UsageError(f"no arm is called {unknown[0]!r}; known: {', '.join(ARMS)}")
     changes = {"sensor": settings.sensor, "weights": settings.weights}
@@ -51,6 +52,7 @@ def run(settings: GentleSettings) -> None:
         "first_seed": settings.first_seed,
         "round": ROUND,
         "weights": weights_sum(config.weights_folder or default_weights()),
+        "shear_models": shear_models_sum(),
     }
     console, store = make_table_console(), SeedResults(path=settings.json, about=about)
     store.read(resume=settings.resume)

@@ -15,7 +15,7 @@ from tacgrasp.benchmarks.limits.draw import FaultKind
 from tacgrasp.benchmarks.limits.episode import LimitsResult, Subject, config_of, run_seed
 from tacgrasp.benchmarks.loop.contestants import language_model
 from tacgrasp.benchmarks.loop.strawberry import wilson
-from tacgrasp.benchmarks.results_file import SeedResults, weights_sum
+from tacgrasp.benchmarks.results_file import SeedResults, shear_models_sum, weights_sum
 from tacgrasp.benchmarks.settings import LimitsSettings
 from tacgrasp.console import make_table_console
 from tacgrasp.policy_factory import default_weights
@@ -62,6 +62,7 @@ def run(settings: LimitsSettings) -> bool:
         "policy": settings.policy,
         "first_seed": settings.first_seed,
         "weights": weights,
+        "shear_models": shear_models_sum(),
     }
     console, store = make_table_console(), SeedResults(path=settings.json, about=about)
     store.read(resume=settings.resume)

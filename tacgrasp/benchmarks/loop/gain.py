@@ -72,7 +72,12 @@ def run(settings: GainSettings) -> bool:
         UsageError: The file of ``--json`` holds something that is not gone on with.
     """
     console, seeds = make_table_console(), settings.seeds
-    about = {"benchmark": "gain", "sensor": settings.sensor, "first_seed": settings.first_seed}
+    about = {
+        "benchmark": "gain",
+        "task": settings.task,
+        "sensor": settings.sensor,
+        "first_seed": settings.first_seed,
+    }
     store = SeedResults(path=settings.json, about=about)
     store.read(resume=settings.resume)
     found = store.map_seeds(

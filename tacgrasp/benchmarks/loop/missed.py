@@ -223,7 +223,7 @@ def run(settings: MissedSettings) -> bool:
     """
     weights, seeds, first_seed = settings.weights, settings.seeds, settings.first_seed
     episodes = len(seeds)
-    policies = tuple(name.strip() for name in settings.policies.split(","))
+    policies = tuple(dict.fromkeys(name.strip() for name in settings.policies.split(",")))
     if not set(policies) <= set(POLICIES):
         raise UsageError(
             f"bench missed needs policies out of {', '.join(POLICIES)}, got {settings.policies!r}"

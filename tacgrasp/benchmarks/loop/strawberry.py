@@ -211,7 +211,7 @@ def run(settings: StrawberrySettings) -> None:
         UsageError: An unknown policy, or a file with figures of something else.
     """
     config = _config(settings)
-    policies = [name.strip() for name in settings.policies.split(",")]
+    policies = list(dict.fromkeys(name.strip() for name in settings.policies.split(",")))
     if any(name not in NAMES for name in policies):
         raise UsageError(
             f"bench needs policies out of {', '.join(NAMES)}; got {', '.join(policies)}"

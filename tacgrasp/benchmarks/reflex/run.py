@@ -24,7 +24,7 @@ from tacgrasp.benchmarks.reflex.images import ImageResult, measure_images
 from tacgrasp.benchmarks.reflex.loads import LoadResult, run_seed
 from tacgrasp.benchmarks.reflex.pace import Pace, measure_pace
 from tacgrasp.benchmarks.reflex.wire import WireResult, run_wire
-from tacgrasp.benchmarks.results_file import SeedResults
+from tacgrasp.benchmarks.results_file import SeedResults, shear_models_sum
 from tacgrasp.benchmarks.settings import ReflexSettings
 from tacgrasp.console import count_progress, make_table_console, working
 
@@ -63,7 +63,12 @@ def run(settings: ReflexSettings) -> bool:
     if settings.sensor not in SENSORS:
         raise UsageError(f"bench reflex needs --sensor {' or '.join(SENSORS)}")
     seeds, console = settings.seeds, make_table_console()
-    about = {"benchmark": "reflex", "sensor": settings.sensor, "first_seed": settings.first_seed}
+    about = {
+        "benchmark": "reflex",
+        "sensor": settings.sensor,
+        "first_seed": settings.first_seed,
+        "shear_models": shear_models_sum(),
+    }
     store = SeedResults(path=settings.json, about=about)
     store.read(resume=settings.resume)
     function = partial(run_seed, settings.sensor)

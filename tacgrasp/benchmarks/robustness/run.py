@@ -251,7 +251,7 @@ def _names(text: str, known: tuple[str, ...]) -> list[str]:
     Raises:
         UsageError: One is unknown.
     """
-    names = [name.strip() for name in text.split(",")]
+    names = list(dict.fromkeys(name.strip() for name in text.split(",")))
     if unknown := [name for name in names if name not in known]:
         raise UsageError(f"unknown {', '.join(unknown)}; known: {', '.join(known)}")
     return names

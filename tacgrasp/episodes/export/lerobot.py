@@ -12,7 +12,6 @@ from __future__ import annotations
 
 import json
 import math
-import shutil
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -21,6 +20,7 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 
+from cltp.atomic_write import new_folder
 from primitives import Primitive
 from tacgrasp.episodes.errors import EpisodeError
 from tacgrasp.episodes.export.parquet import points_column
@@ -68,20 +68,17 @@ def write_lerobot(episodes: Sequence[Episode], folder: Path, *, language: bool =
     steps = [[s for s in each.steps if s.phase is StepPhase.LOOP] for each in episodes]
     num_points = _check(episodes, steps, folder)
     tasks = list(dict.fromkeys(each.header.instruction for each in episodes))
-    part = folder.with_name(f"{folder.name}.part")
     try:
-        shutil.rmtree(part, ignore_errors=True)
-        table = _frames(episodes, steps, tasks, language=language)
-        _write(part / _PATHS["data"].format(0, 0), table)
-        _write(part / _PATHS["episodes"].format(0, 0), _episodes(episodes, steps))
-        _write(part / "meta/tasks.parquet", _tasks(tasks))
-        features = _features(num_points, language=language)
-        info = _info(features, len(episodes), table.num_rows, len(tasks), episodes[0].header.rig)
-        (part / "meta/info.json").write_text(json.dumps(info, indent=1))
-        (part / "meta/stats.json").write_text(json.dumps(_stats(table, features), indent=1))
-        part.rename(folder)
+        with new_folder(folder) as part:
+            table = _frames(episodes, steps, tasks, language=language)
+            _write(part / _PATHS["data"].format(0, 0), table)
+            _write(part / _PATHS["episodes"].format(0, 0), _episodes(episodes, steps))
+            _write(part / "meta/tasks.parquet", _tasks(tasks))
+            features, rig = _features(num_points, language=language), episodes[0].header.rig
+            info = _info(features, len(episodes), table.num_rows, len(tasks), rig)
+            (part / "meta/info.json").write_text(json.dumps(info, indent=1))
+            (part / "meta/stats.json").write_text(json.dumps(_stats(table, features), indent=1))
     except OSError as error:
-        shutil.rmtree(part, ignore_errors=True)
         raise EpisodeError(refusal(folder, "write", error, flag="--out")) from None
     return int(table.num_rows)
 

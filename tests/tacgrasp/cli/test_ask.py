@@ -298,3 +298,15 @@ def test_wrong_use_is_told_in_one_line(
     printed = capsys.readouterr().err
     assert expected in printed
     assert printed.count("\n") == 1
+
+
+def test_input_that_is_no_utf_8_is_answered_line_by_line(
+    talker: Writer,
+    touch: str,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    typed = io.TextIOWrapper(io.BytesIO(b"\xff\xfe deep?\nHow deep is it?\n"), encoding="utf-8")
+    monkeypatch.setattr("sys.stdin", typed)
+    main(["ask", touch])
+    assert len(capsys.readouterr().out.splitlines()) == 2

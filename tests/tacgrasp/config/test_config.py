@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from importlib import resources
 from pathlib import Path
 
 import pytest
@@ -327,3 +328,16 @@ def test_an_empty_name_is_no_default(kind: str) -> None:
         load(**{kind: ""})
     with pytest.raises(UsageError, match=f"TACGRASP_{kind.upper()} is empty"):
         load(environment={f"TACGRASP_{kind.upper()}": ""})
+
+
+def test_paths_in_a_file_are_relative_to_it(tmp_path: Path) -> None:
+    text = Path(str(resources.files("tacgrasp") / "tasks/egg.yaml")).read_text()
+    (tmp_path / "mine.yaml").write_text(
+        f"{text}\nobject_mesh: scan.ply\nllm: {{dir: own}}\nslip_calibration: /abs/slip.json\n"
+    )
+    config, sources = load(str(tmp_path / "mine.yaml"), None, {"TACGRASP_RECORD": "here"})
+    assert config.object_mesh == tmp_path / "scan.ply"
+    assert config.llm.dir == tmp_path / "own"
+    assert config.slip_calibration == Path("/abs/slip.json")
+    assert config.record == Path("here")  # of a variable: to the current folder
+    assert sources["object_mesh"] == str(tmp_path / "mine.yaml")

@@ -271,3 +271,17 @@ def test_a_lift_off_whose_slips_nobody_feels_is_warned_of(task, sensor, has_refl
     warning = unfelt_slips(build(task, SEED, sensor_name=sensor), config)
     assert words in warning
     assert bool(warning) == bool(words)
+
+
+def test_a_force_that_the_guard_does_not_let_through_is_asked_for_once(monkeypatch):
+    rig, executor, contract = hold()
+    reflex, sent_n = ReflexLoop(rig, executor), []
+    correct_force = executor.correct_force
+    monkeypatch.setattr(
+        executor, "correct_force", lambda force_n: sent_n.append(force_n) or correct_force(force_n)
+    )
+    with reflex.keeping(contract, None) as held:
+        held.ahead_n = 100.0
+        rig.clock.sleep(0.5)
+    assert len(sent_n) <= 2
+    assert held.ahead_n == executor.force_n

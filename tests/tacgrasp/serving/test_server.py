@@ -82,8 +82,12 @@ def test_the_words_of_the_prompt_become_the_contract(url):
     )
 
 
-def test_a_refused_prompt_is_told_why(url):
-    assert asked(url, prompt="Drop it.").startswith("refused: ")
+UP_MM = np.float32([0, 0, 0.5])
+
+
+@pytest.mark.parametrize("felt", [{}, {"observation/in_contact": False}, {POINTS: BELOW + UP_MM}])
+def test_a_refused_prompt_is_told_why_whatever_is_felt(url, felt):
+    assert asked(url, prompt="Drop it.", **felt).startswith("refused: ")
 
 
 def test_what_is_known_not_to_touch_is_a_reset_without_asking_the_policy(url):
@@ -98,7 +102,6 @@ def test_a_success_that_what_is_felt_refutes_is_none(url):
     assert asked(url, **points, **felt)["success"] is False
 
 
-UP_MM = np.float32([0, 0, 0.5])
 FLAT = BELOW * np.float32([1, 1, 0])
 
 
@@ -142,9 +145,9 @@ def test_a_second_answer_says_how_long_the_first_took_in_all(url):
     [
         ({POINTS: None}, f"the key {POINTS} is missing"),
         ({"prompt": None}, "the key prompt is missing"),
-        ({"prompt": ""}, "text of 1 to 2000"),
-        ({"prompt": "x" * 2001}, "text of 1 to 2000"),
-        ({"prompt": 5}, "text of 1 to 2000"),
+        ({"prompt": ""}, "text of 1 to 1000"),
+        ({"prompt": "x" * 1001}, "text of 1 to 1000"),
+        ({"prompt": 5}, "text of 1 to 1000"),
         ({"observation/image": 1}, "unknown key 'observation/image'; known: "),
         ({POINTS: [[0.0, 0.0, 0.0]]}, "must be points .* got list"),
         ({POINTS: BELOW.astype("<i4")}, "got an array of int32"),

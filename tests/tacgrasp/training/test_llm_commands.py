@@ -499,7 +499,7 @@ def test_taking_an_encoder_goes_on_where_it_was_stopped(
     out = tmp_path / "weights"
     whole = shutil.copyfileobj
 
-    for part in ("clip.part", "encoder.part"):
+    for part in (".clip.part", ".encoder.part"):
 
         def stopped(source: BinaryIO, to: BinaryIO, part: str = part) -> None:
             if Path(to.name).parent.name == part and "model" in Path(to.name).name:

@@ -113,10 +113,12 @@ def test_some_presses_calibrate_and_the_others_are_measured(folder, tmp_path, ca
     argv = ["calibrate", "gelsight-mini", "--balls", str(folder), "--diameter-mm", "6"]
     argv += ["--out", str(tmp_path / "c.safetensors"), "--presses"]
     assert main([*argv, "8"]) == 0
-    out = capsys.readouterr().out
+    assert main([*argv, "8"]) == 2  # what took 20 presses is not written over
+    out, err = capsys.readouterr()
     assert "frames    8 of 8" in out
     assert "held out  4 presses: diameter" in out
-    assert main([*argv, "12"]) != 0
+    assert "give --overwrite" in err
+    assert main([*argv, "12", "--overwrite"]) != 0
     assert "--presses must be 1 to 11" in capsys.readouterr().err
 
 
@@ -131,7 +133,7 @@ def test_another_units_gains_are_found_printed_and_taken_out(folder, other_units
     assert (mine.unit, before.unit) == ("mine", "other")
     factor = np.median(mine.net.b3[:3] / before.net.b3[:3])
     assert 1 / factor == pytest.approx(1.25, rel=0.05)
-    assert main([*argv[:-1], "--calibration", str(out)]) == 0
+    assert main([*argv[:-1], "--calibration", str(out), "--overwrite"]) == 0
     printed = capsys.readouterr().out
     assert "no different from 1" in printed
     assert "mine, as it was" in printed

@@ -4,6 +4,7 @@ import math
 
 import pytest
 
+from tacgrasp.__main__ import main
 from tacgrasp.benchmarks.loop.gain import GainSample, measure, summary
 
 
@@ -30,3 +31,11 @@ def test_a_rig_is_measured_with_its_hidden_gain():
     assert found.gain == pytest.approx(1.66, abs=0.01)
     assert all(abs(each) < 0.3 for each in found.of_sensor)
     assert found.of_truth != found.of_sensor
+
+
+def test_rigs_of_one_task_are_not_gone_on_with_as_those_of_another(tmp_path, capsys):
+    path = tmp_path / "gain.json"
+    argv = ["bench", "gain", "--episodes", "2", "--json", str(path)]
+    main([*argv, "--task", "strawberry"])
+    assert main([*argv, "--task", "egg", "--resume"]) == 2
+    assert "task" in capsys.readouterr().err

@@ -151,7 +151,9 @@ def test_a_data_set_is_never_overwritten_and_its_episodes_have_to_fit_together(
 ) -> None:
     record(tmp_path / "a.mcap", STEPS[:2])
     one = read_episode(tmp_path / "a.mcap")
+    (tmp_path / "set.part").mkdir()  # somebody's own
     write_lerobot([one], tmp_path / "set")
+    (tmp_path / "set.part").rmdir()
     few = replace(one.steps[0].cloud, points_mm=press(0, 0, 0.3).points_mm[:500])
     other = replace(one, steps=(replace(one.steps[0], cloud=few),))
     for episodes, out, message in (
