@@ -26,12 +26,6 @@ SMALLEST_FORCE_N = 0.05
 LEAST_CONTACTS = 20
 """Fewest contacts to calibrate by. Our choice: a tail of 5 % is then one contact."""
 
-FIT_CONTACTS = 500
-"""Fewest contacts that the intervals are fitted by. Our choice: two rows of 256 weights each."""
-
-FIT_STEPS, FIT_RATE = 300, 0.01
-"""How long and how fast they are fitted."""
-
 USUAL = 0.998
 """Fraction of contacts whose measured depth does not contradict the one that is read."""
 
@@ -167,51 +161,26 @@ class StateHeads(nn.Module):
             return pooled.new_ones(1)
         return torch.where(self.lengths_along, pooled[:, -1:].exp(), 1.0)
 
-    def calibrate(self, *read: tuple[Tensor, Targets], series: Tensor) -> None:
-        """Set the intervals by contacts that nothing was learned from: fit by half, widen by half.
+    def calibrate(self, *read: tuple[Tensor, Targets]) -> None:
+        """Widen the intervals until they hold nine tenths of contacts that nothing learned from.
 
-        Presses of one series are much alike, so that a half has all of a series or nothing of it.
-        With fewer than ``LEAST_CONTACTS`` that touch, the intervals stay as they are.
+        One factor for each number: ends that were fitted anew by so few contacts were wider for
+        the same part of new ones. With fewer than ``LEAST_CONTACTS`` that touch, the intervals
+        stay as they are.
 
         Args:
-            read: Pooled tokens (N, 2 C) and labels of the contacts, under one kind of noise each.
-                The intervals are fitted by the first, and are wide enough for every one. If there
-                are several, row n is the same contact in all of them.
-            series: Number of the series of each contact, shape (N,).
+            read: Pooled tokens (N, 2 C) and labels of the contacts, under one kind of noise each;
+                the intervals are wide enough for every one.
         """
         touching = [labels.touching > 0 for _, labels in read]
-        count = int(touching[0].sum())
-        if self.widening is None or count < LEAST_CONTACTS:
+        if self.widening is None or min(int(each.sum()) for each in touching) < LEAST_CONTACTS:
             return
         self.widening.fill_(1.0)
-        rest = torch.ones(len(series), dtype=torch.bool)
-        if count >= 2 * FIT_CONTACTS:
-            pooled, labels = read[0]
-            rest = series.unique(return_inverse=True)[1] % 2 == 1
-            fitted = touching[0] & ~rest
-            self._fit(pooled[fitted].detach(), labels.numbers[fitted])
         factors = [
-            self._needed(pooled[rest][touched[rest]], labels.numbers[rest][touched[rest]])
+            self._needed(pooled[touched], labels.numbers[touched])
             for (pooled, labels), touched in zip(read, touching, strict=True)
         ]
         self.widening.copy_(torch.stack(factors).amax(0))
-
-    def _fit(self, pooled: Tensor, truth: Tensor) -> None:
-        """Fit the rows of the margins, and nothing else, to errors of contacts (N, 2 C), (N, 5)."""
-        count = 2 * len(NUMBERS)
-        with torch.no_grad():
-            hidden = F.gelu(self.hidden(pooled))
-            errors = (truth - self(pooled).numbers) / self._units(pooled)
-        weight, bias = (p.detach()[-count:].clone().requires_grad_() for p in self.out.parameters())
-        optimiser = torch.optim.AdamW([weight, bias], lr=FIT_RATE, weight_decay=0.01)
-        for _ in range(FIT_STEPS):
-            margins = F.softplus(F.linear(hidden, weight, bias)).unflatten(-1, (len(NUMBERS), 2))
-            optimiser.zero_grad()
-            pinball(errors, margins).mean().backward()
-            optimiser.step()
-        with torch.no_grad():
-            self.out.weight[-count:] = weight
-            self.out.bias[-count:] = bias
 
     @torch.no_grad()
     def _needed(self, pooled: Tensor, truth: Tensor) -> Tensor:

@@ -60,8 +60,7 @@ def calibrate_heads(
     sampler = Sampler(data, augmentation, seed=run.seed + 1, layout=layout)
     varied = _read(encoder, sampler, chosen, measured_mm)
     sampler = Sampler(data, NOISY, seed=run.seed + 1, layout=layout)
-    series = np.tile(data.column("series")[chosen], CALIBRATION_VIEWS)
-    heads.calibrate(varied, _read(encoder, sampler, chosen), series=torch.from_numpy(series))
+    heads.calibrate(varied, _read(encoder, sampler, chosen))
     heads.calibrate_contradiction(*varied, torch.tensor(measured_mm))
 
 
