@@ -80,9 +80,9 @@ def restored(values: Tensor) -> Tensor:
 class StateHeads(nn.Module):
     """All heads behind one hidden layer.
 
-    Intervals are learned as quantiles. Afterwards they are fitted once more, and widened by one
-    factor for each number until they hold nine tenths of the truth, on contacts that nothing else
-    was learned from: those of training have smaller errors (``cltp.encoder.quantiles``).
+    Intervals are learned as quantiles. Afterwards one factor for each number widens them until they
+    hold nine tenths of the truth, on contacts that nothing was learned from: those of training have
+    smaller errors (``cltp.encoder.quantiles``).
     ``force``, where there is one, then reads the force anew.
 
     Args:
