@@ -215,7 +215,7 @@ def _series(rows: Sequence[_Row]) -> list[str]:
 
 
 def _is_number(series: str) -> bool:
-    return series.isascii() and series.isdigit() and int(series) < 2**62
+    return re.fullmatch(r"\d{1,18}", series, re.ASCII) is not None
 
 
 def _splits(

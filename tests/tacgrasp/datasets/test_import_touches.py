@@ -102,6 +102,7 @@ def test_a_depth_may_be_a_number_of_mm(depth, touches):
         ("map.npy,,,,,,nan,,,", "force_n must be a number above 0"),
         ("map.npy,,,,,,,,bench,", "split 'bench' is not one of train, "),
         ("map.npy,,,,,,,,,one", "series must be a number from 0"),
+        (f"map.npy,,,,,,,,,{'9' * 5000}", "series must be a number from 0"),
         ("map.npy,,,,,,,,,,,", "more cells than the header"),
         (",sphere,,,,,,,,", "names no file"),
         ("none.npy,sphere,,,,,,,,", "labelled (shape), but nothing touches"),
