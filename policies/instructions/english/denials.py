@@ -22,7 +22,7 @@ _FORBIDDEN_STATE = (
     r"(?:no longer |never )?(?:out of the question|off[ -]limits|ruled out)|an? no[ -]?(?:no|go)|(?:a bad|no) (?:idea|option)|a mistake|against (?:the|my|our) (?:rules|orders|will)|"
     r"(?:not|never|no longer) (?:to be (?:done|tried|attempted)|allowed|permitted|acceptable|admissible|authori[sz]ed|tolerated|wanted|desired|desirable|advisable|wise|needed|necessary|required|called for|welcome|ok(?:ay)?|all ?right|an? (?:good idea|option)|what i want))"
 )
-_AVOIDED = r"(?:(?:must|should|shall|may|can|will|is|has|needs?|ought)(?: to)? (?:(?:be avoided|be refrained from|be omitted|be skipped)|(?:not|never) (?:happen|occur|take place|be (?:done|tried|attempted|allowed|permitted|started|performed|tolerated))))"
+_AVOIDED = r"(?:(?:must|should|shall|may|can|will|is|has|needs?|ought)(?: to)? (?:(?:be avoided|be refrained from|be omitted|be skipped)|(?:not|never) (?:happen|occur|take place|be (?:done|tried|attempted|allowed|permitted|started|performed|tolerated|used|applied|exerted|employed|exercised|chosen|commanded|set|put on))))"
 FORBIDDEN_AFTER = rf"(?:(?:{_IS} (?:\w+ly |still |now |therefore |also |hereby )*)?{_FORBIDDEN_STATE}(?! (?:to|from)\b)|{_AVOIDED})\b"
 """Behind what somebody does: it is forbidden."""
 

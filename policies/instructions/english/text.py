@@ -56,7 +56,7 @@ _CONTRACTIONS = (
 
 _TYPED = (
     (r"(?<=\d)[·٫](?=\d)", "."),  # decimal points of other keyboards
-    (r"(?<=[a-z]),(?=\.?\d)", ", "),
+    (r"(?<=[a-z]{2}),(?=\.?\d)", ", "),
     (r"\s*(?:!=|≠|<>)\s*", " not "),
     (r"\s&\s", " and "),
     (r"(?:^|(?<=\s))!\s*(?=\.?\d)", "not "),
@@ -92,10 +92,14 @@ def plain(text: str) -> str:
     """Lower case, straight quotes, contractions written out, single spaces."""
     text = re.sub(f"[{_MARKS}]", "'", text)  # before compatible forms: '´' would become a space
     text = re.sub("(?:(\\d+) ?)?([½¼¾⅓⅔⅛])", _mixed, text)
-    text = re.sub("(?<=[\\w)])([⁰¹²³⁴⁵⁶⁷⁸⁹])", r"^\1", text)  # '0.5²' is no 0.52
+    text = re.sub("(?<=[\\w)])([⁺⁻]?[⁰¹²³⁴⁵⁶⁷⁸⁹])", r"^\1", text)  # '0.5²' is no 0.52
+    text = re.sub("[≦⪅≲≯⩽]|!>", "<=", re.sub("[≧⪆≳≮⩾]|!<", ">=", text))
+    text = text.translate(
+        {ord("≰"): ">", ord("≱"): "<", ord("≪"): "<", ord("≫"): ">", ord("¬"): " not "}
+    )
     text = unicodedata.normalize("NFKC", html.unescape(text)).lower()
     text = "".join(c for c in text if unicodedata.category(c) != "Cf")  # what nobody sees
-    text = text.replace("()", "").replace("−", "-").replace("⩽", "<=")
+    text = text.replace("()", "").replace("−", "-")
     for pattern, replacement in (*_TYPED, *_CONTRACTIONS, *_FOREIGN_BOUNDS):
         text = re.sub(pattern, replacement, text)
     text = re.sub(r"\banything (?:but|other than|except)\b", "not", text)

@@ -12,11 +12,12 @@ from policies.instructions.quantities.outcomes import EarlierGrip, is_again, out
 from policies.instructions.quantities.relations import NOT, relation
 from policies.instructions.quantities.spans import force_spans
 
+_LEFT_OUT = r"(?:leav(?:e|ing) out|omit(?:ting)?|skip(?:ping)?|(?:move|get|back|steer) away from|resist(?:ing)? the (?:temptation|urge))"
 _DROPPED = re.compile(
-    r"\b(?:(?<!if )not|never|instead of|rather than|forget(?: about)?|isn't|skip|no longer|nor)(?: (?:at|the|with|use|using|to|about|exactly))*\s*$|^\s*,? ?than(?: (?:at|with|use|using))*\s*$"
+    rf"\b(?:(?<!if )not|never|instead of|rather than|forget(?: about)?|isn't|{_LEFT_OUT}|no longer|nor)(?: (?:at|the|with|use|using|to|about|exactly))*\s*$|^\s*,? ?than(?: (?:at|with|use|using))*\s*$"
 )
 _NOT_WITH = re.compile(
-    rf"\b(?<!why )(?<!why do )(?:{NO_CASE}|(?<!if )not(?! you (?:just |please )?(?:use|hold|keep|grip|grasp|take|try|go|apply)\b)|never|no|avoid\w*|refrain from)"
+    rf"\b(?<!why )(?<!why do )(?:{NO_CASE}|(?<!if )not(?! you (?:just |please )?(?:use|hold|keep|grip|grasp|take|try|go|apply)\b)|never|no|avoid\w*|refrain from|{_LEFT_OUT})"
     r"(?: (?:(?:crush|squash|squish|smash|bruise|burst|damage|hurt|break|mark|dent|destroy)(?= (?:it|this|that|the|them)\b)|ever|true|correct|want|like|dare|you|to|hold|keep|grip|grasp|pinch|pick|take|lift|set|go|apply|use|using|it|this|that|the|"
     r"(?:straw ?)?berry|fruit|one|at|with|a|force|of|for|exactly|about|around|in|within|between|from|(?<=\bthe )\w+|(?<=\bmy )\w+|(?<=\bthis )\w+|(?<=\bthat )\w+))*\s*$"
 )
@@ -68,11 +69,13 @@ _NO_DENIAL = re.compile(
 )
 """'Why not use 2 N', 'it did not slip at 0.5 N': what is denied is not the force."""
 _REJECTED = re.compile(
-    rf"\s*(?:[:,;.!–—-]*\s*(?:no way|no thanks?|no chance|not a chance|absolutely not|certainly not|definitely not|not on your life|nope|never|forget it)[.!]*\s*$|"
+    rf"\s*(?:[:,;.!?–—-]*\s*(?:no way|no thanks?|no chance|not a chance|absolutely not|certainly not|definitely not|not on your life|nope|never|forget it|no|not|wrong)[.!]*\s*$|"
     rf"(?:\w+ ){{0,2}}?{FORBIDDEN_AFTER}|(?:is|would be|was|sounds|seems) (?:just |plain |simply |really |rather )?(?:an? )?(?:(?:really |very |terribl[ey] )?(?:bad|terrible|awful|poor|stupid|foolish|silly|crazy|dreadful) (?:idea|choice|plan)|foolish|unwise|inadvisable|stupid|crazy|insane|madness|reckless|irresponsible|nonsense|folly)\b|"
     r",? ?like the (?:\w+ ){1,3}?(?:that|which|you) (?:(?:got|was|were|had|just) )*(?:crush|bruis|squash|burst|broke|ruin|split)\w*)"
 )
 """'2 N: no way', 'holding it with 2 N is a bad idea'."""
+_LESS = re.compile(r"\b(?:less|fewer|lower|softer|gentler|below|under|beneath)\b")
+"""In the words of a least force: 'not less than 1 N' has its denial in them."""
 _PAST = re.compile(
     r"\b(?:last (?:time|one|run|trial|try|berry)|yesterday|previous(?:ly)?|before|earlier|used to|was|were|had|"
     r"slipped|slid|crushed|squashed|bruised|dropped|tried|went|did)\b"
@@ -142,6 +145,8 @@ def read_forces(text: str) -> tuple[list[Force], str, str]:
             )[0]
             clause = before + after
             is_denied = kind == "value" and bool(_DROPPED.search(left) or NOT.search(before))
+            may_be_denied = kind == "value" or (kind == "least" and not _LESS.search(words))
+            is_denied |= may_be_denied and kind == "least" and bool(_NOT_WITH.search(left))
             if is_denied and len(NOT.findall(before)) % 2 and not _NO_DENIAL.search(before):
                 denials.add(words)
             behind = text[stop:].lstrip(" .,;-–—")
@@ -163,9 +168,9 @@ def read_forces(text: str) -> tuple[list[Force], str, str]:
                 found = [(f, kept and (f.is_told or f.kind != "value")) for f, kept in found]
             kept = is_worked_out or not (_PAST.search(clause) or is_denied)
             is_taken_back = bool(_TAKEN_BACK.match(text[stop:]) or _IS_WRONG.match(text[stop:]))
-            if kind == "value" and not is_worked_out:
+            if may_be_denied and not is_worked_out:
                 is_taken_back |= bool(_AGAINST.search(left) or _REJECTED.match(text[stop:]))
-            if is_taken_back or (kind == "value" and _NOT_WITH.search(left)):
+            if is_taken_back or (may_be_denied and _NOT_WITH.search(left)):
                 denied, kept = words, kept and not is_taken_back
             force = Force(kind=kind, value_n=ends[0], words=words, within_n=within_n)
             found.append((force, kept))

@@ -42,7 +42,7 @@ _APART = r"(?:apart|to (?:bits|pieces|shreds)|in (?:half|two|pieces))"
 _HURT = (
     r"(?:(?:broken?|breaks?|breaking)(?! (?:free|loose|away|out)\b)|torn?|tore|tears|burst(?:s|ed|ing)?|split(?:s|ting|ted)?|crack(?:s|ed|ing)?|crush(?:es|ed|ing)?|squash(?:es|ed|ing)?|squish(?:es|ed)?|smash(?:es|ed)?|bruis(?:es|ed?|ing)|dent(?:s|ed|ing)?|damag(?:es|ed?|ing)|"
     r"mark(?:s|ed)|deform(?:s|ed|ation)?|indent(?:ed|ations?)|ruptur(?:es|ed?|ing)|punctur(?:es|ed)|pierc(?:es|ed)|shatter(?:s|ed)|fractur(?:es|ed?)|collaps(?:es|ed?)|flatten(?:s|ed)|pulp(?:s|ed)|mashed|mush|jam(?! jar)|juice(?! (?:box|carton|bottle))|leak(?:s|ed|ing)?|ooz(?:es|ed|ing)|bled|bleeds|"
-    r"pop(?:s|ped)|snap(?:s|ped)|(?<!grip )(?<!grasp )(?<!hold )fail(?:s|ed)(?! to (?:hold|keep|lift|grip|carry|pick)\b)|yield(?:s|ed|ing)|ruin(?:s|ed)?|spoil(?:s|ed|t)?|destroy(?:s|ed)|wreck(?:s|ed)|kill(?:s|ed)|hurts?|injur(?:es|ed|y)|suffer(?:s|ed)|(?:caves?|caved|gives?|gave) (?:in|way)|cut into|"
+    r"pop(?:s|ped)|snap(?:s|ped)|(?<!grip )(?<!grasp )(?<!hold )fail(?:s|ed)(?! to (?:hold|keep|lift|grip|carry|pick)\b)|yield(?:s|ed|ing)|ruin(?:s|ed)?|spoil(?:s|ed|t)?|destroy(?:s|ed)|wreck(?:s|ed)|kill(?:s|ed)|hurts?|injur(?:es|ed|y)|suffer(?:s|ed)|(?:caves?|caved|gives?|gave) (?:in|way)|(?:gives?|gave)(?= at (?!(?:the )?(?:most|least)\b))|cut into|"
     rf"(?:fell|falls|fallen|comes?|came|goes|went) {_APART}|(?:left|leaves|leaving|leave|made|makes|showed|shows|got|had|has) (?:\w+ ){{0,3}}?(?:marks?|dents?|bruis\w*|imprints?|indentations?|prints?|damage|cracks?|traces?|scars?|grooves?))"
 )
 _ADVERB = r"(?:(?!hardly|barely|scarcely|rarely)\w+ly|still|just|always|then|soon|again|almost|nearly|also|already|even|sometimes|often|twice|once|right|immediately)"

@@ -23,6 +23,8 @@ _MOST = re.compile(
     r"\bmax(?:imum|imal(?:ly)?|ed)?\.?(?: \w+){0,3}?(?: of| is| at| to|:| =|=)?|"
     r"\blimit(?:s|ed|ing)?(?: (?!not\b|never\b)\w+){0,3}?(?: to| of| at| is|:| =|=)?|"
     r"(?<!bottle )(?<!screw )(?<!jar )(?<!pen )(?<!tube )(?<!vial )\bcap(?:s|ped|ping)?(?: \w+){0,3}?(?: at| to| of| is|:| =|=)?|\bceiling(?: of| is| at|:| =|=)?|"
+    r"\bcritical (?:force|load|value|level|point)(?: of| is| at| to|:| =|=)?|"
+    r"\b(?:alarm|trip|overload|risk|fault|critical)(?: (?:is|at))*\s*[:=]|\b(?:alarm|trip|overload|fault)s?(?: is)? (?:set )?at|"
     r"\b(?:alarm|trip(?:ping)?|fault|safety|abort|stop|shut-?down|e-?stop|emergency|overload|warning)s?[ -](?:threshold|level|point|limit|value|mark|line)(?: of| is| at| to|:| =|=)?|\b(?:red|danger) ?line(?: of| is| at|:| =|=)?|"
     r"\b(?:upper|top) (?:\w+ )?(?:limit|bound|end)(?: \w+){0,2}?(?: of| is| at|:| =|=)?|\bpeaks?(?: \w+){0,2}?(?: of| is| at|:| =|=)?|"
     r"\b(?:bruis\w*|ruptur\w*|fractur\w*|fail\w*|break\w*|burst\w*|crush\w*|damag\w*|yield\w*|crack\w*|tear\w*|squash\w*|collaps\w*) (?:threshold|onset|force|load|limit|point|level|pressure|strength|mark)s?(?: (?:is|of|at|about))*\s*[:=]?|\b(?:warning|danger|caution)\s*[:=]|"
@@ -33,7 +35,7 @@ _MOST = re.compile(
 )
 _LEAST = re.compile(
     r"(?:\b(?:more|greater|higher|larger) than or equal to|\b(?:at|over|above) or (?:over|above|at)|"
-    r"\bat (?:the )?(?:very |absolute )?least|\batleast|\bmin(?:imum|imal(?:ly)?)?\.?(?: \w+){0,3}?(?: of| is| at|:| =|=)?|"
+    r"\bat (?:the )?(?:very |absolute )?least|\batleast|\bmin(?:imum|imal(?:ly)?)?\.?(?: (?!not\b|never\b)\w+){0,3}?(?: of| is| at|:| =|=)?|"
     r"\b(?:lower|bottom) (?:\w+ )?(?:limit|bound|end)(?: \w+){0,2}?(?: of| is| at|:| =|=)?|\bfloor(?: \w+){0,3}?(?: of| is| at|:| =|=)?|"
     r">=|≥|=>|\bno less than|\bno (?:weaker|less|softer|lower|gentler|looser|smaller)(?: an?)? (?:grip|squeeze|hold|force|clamp|pressure|grasp)(?: strength)? than|\bat (?:the )?(?:very )?least (?:with|at|use|apply)|\b(?:it|berry|fruit|this|that|one|strawberry|thing) (?:really |always )?(?:needs|requires|takes)|\bf[_ ]?min\s*[:=]?|\bstarting (?:at|from)|\bbottom out at)"
     r"(?: (?:about|around|roughly))?\s*$"
@@ -158,7 +160,7 @@ _EXACT_AFTER = re.compile(
 
 NOT = re.compile(
     r"\b(?:not|no|never|none|nothing|nowhere|without|nor|neither|avoid\w*|refrain|refuse|forbid\w*|stop|"
-    r"prevent\w*|keep(?: \w+){0,4} from|rather than|hardly|nobody)\b"
+    r"prevent\w*|keep(?: \w+){0,4} from|rather than|instead of|in place of|hardly|nobody)\b"
 )
 _IF = re.compile(
     r"(?<!only )(?<!just )\b(?:if|should) (?:you|it|we|the \w+)\b(?! (?:would |could |can |just |only |always |never )*(?:stay|stays|stayed|keep|keeps|kept|remain\w*|hold|held|use|used|limit\w*|were|was kept|is kept)\b)"

@@ -41,9 +41,9 @@ _DERIVED = re.compile(
 """Torques, stiffnesses, rates: a force is only a part of them."""
 
 _FORMULA = re.compile(
-    rf"(?:\b[a-z]+\(\s*{NUMBER}\s*\)|\b{NUMBER}\)?\s*(?:\^|\*\*|/)\s*\(?{NUMBER}\)?)\s*(?:{UNIT})\b|"
+    rf"(?:\b[a-z]+\(\s*{NUMBER}\s*\)|\b{NUMBER}\)?\s*(?:(?:\^|\*\*)\s*\(?[-+]?|/\s*\(?){NUMBER}\)?|\b{NUMBER}\s*[*×x·]\s?10 ?- ?\d+)\s*(?:{UNIT})\b|"
     rf"(?:\(\s*{NUMBER}\s*[+*/]\s*{NUMBER}\s*\)|(?:√\s*\(?|{NUMBER}\s*[*×x])(?=\d){NUMBER}\)?)\s*(?:{UNIT})\b|"
-    rf"{NUMBER}\s*(?:{UNIT})\b\s*(?:\^|\*\*|\*|/|×|·|x(?= ?\d)|times\b|divided by\b)\s*\d[\d.,]*"
+    rf"{NUMBER}\s*(?:{UNIT})\b\s*(?:\(?\s*(?:\^|\*\*|\*|/|×|·|÷|∕|⁄|x(?= ?\d)|times\b|divided by\b)\s*\d[\d.,]*|: ?\d+(?:\.\d+)?(?=\s*(?:$|[;!]|\.(?!\d)))|quartered\b)"
 )
 """Powers, roots and quotients are not worked out."""
 _DIGITS = r"(?<![\w.,])\d+(?:[.,]\d+){2,}"
@@ -51,9 +51,9 @@ _MALFORMED = re.compile(
     rf"(?P<a>{_DIGITS})\s*(?:{UNIT})\b|(?:{BEFORE_BOUND}|{BEFORE_VALUE})(?P<b>{_DIGITS})(?![.,]?\w)"
 )
 _NO_NUMBER = re.compile(
-    rf"(?<![\w.,])(?:\d[\d.,]*(?:[:;_'~|\\]\d[\d.,]*| ?\(\d+\)| over \d[\d.,]*)\s*|(?<!\d )(?:ii+|iv|vi*|ix|xi*) )(?:{UNIT})\b"
+    rf"(?<![\w.,])(?:\d[\d.,]*(?:[:;_'~|\\]\d[\d.,]*| ?\(\d+\)| over \d[\d.,]*)\s*|[a-z],\d[\d.,]*\s*|(?!0,)\d{{1,3}},\d{{3}}\s*(?=n(?:ewtons?)?\b)|(?<!\d )(?:ii+|iv|vi*|ix|xi*) )(?:{UNIT})\b"
 )
-"""'0:3 N', '0.8(1) N', '1 over 3 N', 'iv n'."""
+"""'0:3 N', '0.8(1) N', '1 over 3 N', 'iv n', 'o,5 N'; '1,500 N', which may be 1.5 or 1500."""
 
 
 _SIGNED_CHANGE = re.compile(
