@@ -39,7 +39,7 @@ class RandomPolicy:
     """
 
     def __init__(self, seed: int) -> None:
-        self._rng = np.random.default_rng(seed)
+        self._rng = np.random.default_rng([seed, 10])  # apart from the streams that draw a world
 
     @property
     def name(self) -> str:

@@ -97,6 +97,7 @@ class SimClock:
             self._pending = None
         if self._grasp is not None:
             self._grasp.beat = None if call is None else self
+        self._made_s = 0.0  # a motion that was cut short is not advanced by
 
     def call_after(self, delay_s: float, call: Callable[[], None]) -> None:
         """Call a function once, after a delay > 0 [s]; it takes the place of one still waiting.
@@ -205,9 +206,11 @@ class SimArm(_Device):
         base_from_tcp = Rotation.from_rotvec(np.array(self._pose.rotvec_rad))
         by_m = pose.position_m - self._pose.position_m
         by_mm = tuple(float(1000 * base_from_tcp.apply(axis) @ by_m) for axis in self._pad_axes)
-        seconds = self._grasp.move((by_mm[0], by_mm[1]), speed_m_s, acceleration_m_s2)
-        self._clock.advance(seconds)
-        self._pose = pose
+        try:
+            seconds = self._grasp.move((by_mm[0], by_mm[1]), speed_m_s, acceleration_m_s2)
+            self._clock.advance(seconds)
+        finally:
+            self._pose = pose  # the world is there, of a motion that was cut short too
         return self._pose
 
     def stop(self) -> None:

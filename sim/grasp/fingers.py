@@ -25,6 +25,7 @@ import torch
 from cltp.tactile.cloud import FloatArray, grid_axes_mm
 from cltp.tactile.sensors import SensorSpec
 from cltp.threads import torch_threads
+from sim.gel.gap import NO_BODY_MM
 from sim.gel.layer import ElasticLayer, GelMaterial
 from sim.gel.shear.coarse import CoarseShear
 from sim.grasp.bodies import Body
@@ -243,7 +244,7 @@ class FlatFingers:
 
     def reaches(self, offset_mm: tuple[float, float]) -> bool:
         """Whether closing fingers would touch the body at all."""
-        return bool(self.gap_mm(offset_mm).min() < self.body.thickness_mm / 2)
+        return bool(self.gap_mm(offset_mm).min() < min(self.body.thickness_mm / 2, NO_BODY_MM))
 
     def press(self, offset_mm: tuple[float, float], force_n: float) -> Patch:
         """Patch of a body at ``offset_mm`` pressed with ``force_n`` [N]."""

@@ -31,6 +31,7 @@ RISE_MM = 0.1
 under a strawberry."""
 
 _FOLLOW_MM = 0.05  # slide after which the contact is solved anew
+_ROUNDING_MM = 1e-9  # a body no higher stands: heights are sums of many steps
 _SAME_PRESSURE = 1.02  # a grip shifted on the grid changes the pressure by less than 2 %
 
 
@@ -139,9 +140,12 @@ class Grasp:
                 self.bruised = True
 
     def open(self) -> None:
-        """Open the fingers; a lifted body falls."""
-        if self.patch is not None and self._lifted_mm > 1.0:
-            self.dropped = True
+        """Open the fingers; a lifted body falls, without harm from up to 1 mm above its support."""
+        if self.patch is not None:
+            self.dropped = self.dropped or self._lifted_mm > 1.0
+            (x_mm, y_mm), (up_x, up_y) = self.body_xy_mm, self.fingers.up
+            self.body_xy_mm = (x_mm - self._lifted_mm * up_x, y_mm - self._lifted_mm * up_y)
+        self._lifted_mm = 0.0
         self._let_go()
         self.contacts += 1
         self._speed = 0.0
@@ -239,12 +243,16 @@ class Grasp:
             self._let_go()
         elif math.dist(patch.offset_mm, self.offset_mm) > _FOLLOW_MM:
             self.patch = self.fingers.press(self.offset_mm, patch.force_n)
+            before = self.peak_kpa * _SAME_PRESSURE
+            self.peak_kpa = max(self.peak_kpa, self.patch.peak_kpa)
+            self.bruised |= self.patch.peak_kpa > max(before, self.fingers.bruise_kpa)
 
     def displace(self, by_mm: tuple[float, float]) -> None:
         """Put the fingers, and a held body with them, elsewhere; no time passes."""
         self._displace(by_mm)
         if self.patch is not None:
-            self._lifted_mm = max(0.0, self._lifted_mm + self._rise_mm(by_mm))
+            lifted_mm = self._lifted_mm + self._rise_mm(by_mm)
+            self._lifted_mm = lifted_mm if lifted_mm > _ROUNDING_MM else 0.0
 
     def _displace(self, by_mm: tuple[float, float]) -> None:
         """As ``displace``, of a body that its support still carries."""

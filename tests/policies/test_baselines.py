@@ -1,10 +1,11 @@
 """Baselines that leave out a part of what is felt."""
 
+import numpy as np
 import pytest
 
 from cltp.tactile.measure import contact_state
 from policies import Observation
-from policies.baselines import CenterOnlyPolicy, ForceOnlyPolicy
+from policies.baselines import CenterOnlyPolicy, ForceOnlyPolicy, RandomPolicy
 from primitives.primitive import PAD_DIRECTION, Primitive
 from tests.fakes.contracts import contract
 from tests.fakes.loop_fakes import touch
@@ -29,3 +30,12 @@ def test_force_only_changes_the_force_as_the_rules_do(factor, action):
     decision = ForceOnlyPolicy(move_step_mm=3.0).decide(SEEN, held)
     assert decision.action is action
     assert decision.success is (action is None)
+
+
+def test_random_decisions_tell_nothing_of_what_draws_the_world():
+    choices = [*Primitive, None]
+    for seed in range(3):
+        policy, world = RandomPolicy(seed), np.random.default_rng([seed, 0])
+        drawn = [policy.decide(SEEN, contract(1.0, 2.0, 3.0)).action for _ in range(20)]
+        assert drawn != [choices[int(8 * world.random())] for _ in range(20)]
+        assert not np.array_equal(policy._rng.random(8), np.random.default_rng(seed).random(8))

@@ -74,7 +74,8 @@ class EmulatedServo:
 
     @property
     def moving(self) -> bool:
-        return self.waiting or abs(self._velocity) > self.table[at.MOVING_THRESHOLD]
+        threshold = self.table[at.MOVING_THRESHOLD] * at.VELOCITY_TICKS_S
+        return self.waiting or abs(self._velocity) > threshold
 
     def execute(self, code: int, parameters: bytes) -> tuple[int, bytes, Written]:
         """Carry out an instruction for this servo alone.

@@ -122,7 +122,8 @@ class DashboardSession(Session):
             return "Cannot unlock: this is no protective stop"
         if self._controller.safety_mode == PROTECTIVE and not self._controller.may_unlock:
             return "Cannot unlock protective stop until 5s after occurrence."
-        self._controller.unlock()
+        if self._controller.safety_mode == PROTECTIVE:
+            self._controller.unlock()
         return "Protective stop releasing"
 
 

@@ -64,7 +64,7 @@ _ROUNDING_S = 1e-9
 class LoadKind(StrEnum):
     """What happens to the held body."""
 
-    LIFT = "lift"  # the weight comes on, with the lift's acceleration
+    LIFT = "lift"  # the weight comes on
     PULL = "pull"  # the weight is carried; a force rises to its peak and stays
     JOLT = "jolt"  # the weight is carried; a force rises and falls like half a sine
 

@@ -78,7 +78,7 @@ class FaultBench:
         self._background = Path(self._folder.name) / "background.png"
         settings = settings_for(config, hardware, emulators, Path(self._folder.name))
         self._hardware = settings.model_copy(update={"start": StartConfig(at="here")})
-        self._rng = np.random.default_rng(config.seed)
+        self._rng = np.random.default_rng([config.seed, 11])  # apart from those of its world
 
     def close(self) -> None:
         self._folder.cleanup()

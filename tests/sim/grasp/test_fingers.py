@@ -124,3 +124,11 @@ def test_elements_of_the_grid_are_square_on_every_pad(name):
     sensor = SENSORS[name]
     rows, columns = grid_of(sensor)
     assert sensor.height_mm / rows == pytest.approx(sensor.width_mm / columns, rel=0.02)
+
+
+def test_beside_a_body_wider_than_any_gap_there_is_nothing_to_reach():
+    body = draw_body("cherry_tomato", np.random.default_rng(3))
+    wide = dataclasses.replace(body, thickness_mm=104.0)
+    fingers = FlatFingers(wide, sensor_named("gelsight_mini"), gel_of("gelsight_mini"))
+    assert fingers.reaches((0.0, 0.0))
+    assert not fingers.reaches((200.0, 0.0))

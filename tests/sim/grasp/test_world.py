@@ -175,3 +175,39 @@ def test_fingers_that_meet_nothing_hold_nothing():
     world = grasp((40.0, 0.0))
     world.close(1.0)
     assert world.patch is None and world.peak_force_n == 0.0
+
+
+@pytest.mark.parametrize("lift_mm", [40.0, 37.3, 0.8])
+def test_a_body_that_was_set_down_stands_and_a_light_touch_leaves_it_there(lift_mm):
+    world = grasp((1.0, 0.5))
+    for _ in range(3):
+        world.close(1.0)
+        world.move((0.0, lift_mm), 0.4, 2.5)
+        assert world.hangs
+        world.move((0.0, -lift_mm), 0.4, 2.5)
+        assert not world.hangs
+        world.open()
+        world.close(0.01)
+        world.open()
+    assert world.slip_mm == 0.0
+    assert world.body_xy_mm == pytest.approx((1.0, 0.5))
+
+
+def test_a_body_that_is_let_go_just_above_its_support_stands_on_it_again():
+    world = grasp()
+    world.close(1.0)
+    world.move((0.0, 0.8), 0.4, 2.5)
+    world.open()
+    assert world.body_xy_mm == pytest.approx((0.0, 0.0))
+    world.close(0.05)
+    assert not world.hangs and not world.dropped
+
+
+def test_what_a_body_that_slides_along_is_pressed_with_counts():
+    world = grasp((0.0, 5.5))
+    world.close(0.3)
+    at_first = world.peak_kpa
+    world.pad_xy_mm = (0.0, -3.0)  # towards the edge, which presses harder
+    assert world.patch is not None
+    world._follow(world.patch)
+    assert world.peak_kpa == world.patch.peak_kpa > at_first

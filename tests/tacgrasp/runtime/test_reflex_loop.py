@@ -285,3 +285,25 @@ def test_a_force_that_the_guard_does_not_let_through_is_asked_for_once(monkeypat
         rig.clock.sleep(0.5)
     assert len(sent_n) <= 2
     assert held.ahead_n == executor.force_n
+
+
+def test_after_a_motion_that_was_cut_short_arm_world_and_clock_agree():
+    rig, _, _ = hold()
+    start, calls = rig.arm.pose(), []
+
+    def fail():
+        calls.append(0)
+        if len(calls) == 30:
+            raise TouchError("blind")
+
+    rig.clock.call_every(0.01, fail)
+    with pytest.raises(TouchError):
+        lift(rig, 0.5)
+    rig.clock.call_every(0.01, None)
+    risen_mm = 1000 * (rig.arm.pose().position_m[2] - start.position_m[2])
+    assert rig.grasp.pad_xy_mm[1] == pytest.approx(risen_mm)
+    rig.arm.move_to(start, speed_m_s=0.4)
+    assert rig.grasp.pad_xy_mm == pytest.approx((0.0, 0.0), abs=1e-9)
+    before_s = rig.clock.simulated_s
+    rig.clock.sleep(0.2)
+    assert rig.clock.simulated_s - before_s == pytest.approx(0.2)

@@ -254,7 +254,7 @@ def test_the_profile_limits_the_speed(bus):
     line.close_on(82)
     speeds = []
     end = time.monotonic() + 10
-    while min(speeds, default=0) == 0 or line.value(at.MOVING, 1):
+    while min(speeds, default=0) >= -10 or line.value(at.MOVING, 1):  # its threshold
         speeds.append(line.value(at.PRESENT_VELOCITY, 4))
         assert time.monotonic() < end, "the fingers never moved"
     assert min(speeds) == -30

@@ -198,3 +198,10 @@ def test_a_script_without_an_end_closes_the_connection(controller):
     with pytest.raises(StreamLostError, match="without an end"):
         for _ in range(LONGEST_SCRIPT // 4096 + 2):
             script.receive(b"def f():\n" if _ == 0 else b"  x = 1\n" * 512)
+
+
+def test_without_a_protective_stop_there_is_nothing_to_unlock(controller, session):
+    controller.power_off()
+    mode = controller.robot_mode
+    ask(session, "unlock protective stop")
+    assert controller.robot_mode == mode
