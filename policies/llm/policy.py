@@ -2,8 +2,8 @@
 
 The model is asked for the step's target and answers in the grammar of D_t (``policies.llm``). A
 draft of the reply, from what the heads read and the teacher's advice on it, saves time and changes
-nothing. A step leads to no action where what is felt can't be trusted (``cltp.encoder.reader``), or
-where the model has too low a confidence.
+nothing in 32 bits. A step leads to no action where what is felt can't be trusted
+(``cltp.encoder.reader``), or where the model has too low a confidence.
 """
 
 from __future__ import annotations

@@ -11,7 +11,7 @@ left aside on the way. The model never decides itself whether to say a rival.
 
 A pass over many tokens rounds otherwise than one over few. A decision within ``CLOSE`` of another
 one is taken anew from a pass over prompt and reply so far, which is the same with and without a
-draft. So the draft never changes what is said.
+draft. So the draft never changes what is said in 32 bits; 16 bits round by more than that.
 """
 
 from __future__ import annotations

@@ -40,6 +40,9 @@ _MULTIPLE = re.compile(
         rf"(?P<number>\d+(?:\.\d+)?) times){_AS_MUCH}"
     )
 )
+_DIMENSIONS = {"force": "force", "grip": "force", "depth": "length", "mass": "mass", "area": "area"}
+_NAMED = re.compile(rf"\bthe ({'|'.join(_DIMENSIONS)})$")
+"""A quantity that a multiple names itself, and what it measures."""
 _SHARE_MORE = re.compile(
     r"(?:(?:what|how much) )?(?:if |with |at |plus |minus )?(?:i |we |you )?(?:(?:add|take off|"
     r"raise it by|increase it by|lower it by|reduce it by|went up|went down|go up|go down)"
@@ -176,6 +179,8 @@ def of_number(question: str, about: Meaning | None, earlier: Meaning | None) -> 
     if of_both := _of_both(core, term, earlier):
         return replace(of_both, unit=of_both.unit or unit)
     if found := _MULTIPLE.fullmatch(core):
+        if (named := _NAMED.search(core)) and _DIMENSIONS[named[1]] != term.dimension:
+            return None  # 'twice the force', after a depth
         factor = TIMES.get(found["times"] or "") or float(
             found["number"] or float(found["percent"] or 100) / 100
         )

@@ -24,6 +24,7 @@ from tacgrasp.lessons.dialogue.meaning import (
 from tacgrasp.lessons.dialogue.plainer import in_words
 from tacgrasp.lessons.dialogue.quantities import UNITS
 from tacgrasp.lessons.turns.leads import LEAD, capital, uncapital, without_lead
+from tacgrasp.lessons.turns.told import told_in
 from tacgrasp.lessons.turns.units import TIMES, in_own_unit
 from tacgrasp.lessons.understanding import understood_by_grammar
 
@@ -45,6 +46,7 @@ _ANOTHER_IF = re.compile(rf"{LEAD}(?P<if>if [^,]+?)[?.! ]*", re.I)
 _CHANGED = re.compile(r"\b(?:halved|doubled|tripled|raised|increased|lowered|reduced)\b", re.I)
 """What names the supposed force itself."""
 _UNDER_IT = re.compile(r"\b(?:it|that|this|then|still|would)\b", re.I)
+_STILL = re.compile(r"\b(?:then|still|would)\b", re.I)
 _THEN = re.compile(r",? ?\bthen\b", re.I)
 _SUBJECT = re.compile(r"\b(?P<verb>is|are|would|will|does|do) (?:it|that|this)\b", re.I)
 _STILL_UNDER = re.compile(
@@ -129,6 +131,9 @@ def under_supposition(question: str, before: str) -> str:
         return ""
     if supposed is None or _ANOTHER_IF.match(question) or not _UNDER_IT.search(question):
         return ""
+    told = told_in(before)
+    if told and told[0].is_supposed and not _STILL.search(question):
+        return ""  # a band, a limit or a mass counts for the question that supposes it
     asked = re.sub(rf"^{LEAD}", "", _THEN.sub("", question), flags=re.I)
     return f"{capital(supposed[0])}, {uncapital(about_the_force(asked))}"
 

@@ -118,3 +118,24 @@ def test_why_there_is_no_answer_is_told(talk):
     assert ask("What does it cost?", "Why?") == (
         "Because the touch of one fingertip does not tell it."
     )
+
+
+def test_a_supposed_limit_or_mass_counts_for_its_own_question_alone(talk):
+    ask = talk(mass_g=100.0)
+    over = "If the limit is 0.7 N, are we over it?"
+    assert ask(over).startswith("Yes")
+    assert ask("Is it above the limit?").startswith("No")
+    assert ask("If it weighs 5 g, will it slip?").startswith("No")
+    assert ask("Will it slip?").startswith("Yes")
+
+
+@pytest.mark.parametrize(
+    ("questions", "unit"),
+    [
+        (("How deep is it?", "What is twice the force?"), " N."),
+        (("How deep is it?", "What is twice the depth?"), " mm."),
+        (("What is the ratio of force to limit?", "What is twice the force?"), " N."),
+    ],
+)
+def test_a_multiple_of_a_quantity_that_it_names_is_not_of_the_one_before(talk, questions, unit):
+    assert talk()(*questions).endswith(unit)
