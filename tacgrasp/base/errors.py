@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-from cltp.errors import TouchError
-from primitives.errors import RobotError
-
 
 class UsageError(Exception):
     """A wrong flag, file or value; one line that says what was expected, what came, what to do."""
@@ -12,6 +9,8 @@ class UsageError(Exception):
 
 def error_text(error: Exception) -> str:
     """What an error says; one of foreign code, which may say anything, with its type."""
-    if isinstance(error, (RobotError, TouchError, UsageError)):
-        return str(error)
-    return f"{type(error).__name__}: {error}"
+    ours = any(kind.__module__.split(".")[0] in _PACKAGES for kind in type(error).__mro__)
+    return str(error) if ours else f"{type(error).__name__}: {error}"
+
+
+_PACKAGES = ("cltp", "policies", "primitives", "sim", "tacgrasp")

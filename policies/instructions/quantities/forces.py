@@ -74,7 +74,7 @@ _REJECTED = re.compile(
     r",? ?like the (?:\w+ ){1,3}?(?:that|which|you) (?:(?:got|was|were|had|just) )*(?:crush|bruis|squash|burst|broke|ruin|split)\w*)"
 )
 """'2 N: no way', 'holding it with 2 N is a bad idea'."""
-_LESS = re.compile(r"\b(?:less|fewer|lower|softer|gentler|below|under|beneath)\b")
+_LESS = re.compile(r"\b(?:less|short|shy|fewer|lower|softer|gentler|below|under|beneath)\b")
 """In the words of a least force: 'not less than 1 N' has its denial in them."""
 _PAST = re.compile(
     r"\b(?:last (?:time|one|run|trial|try|berry)|yesterday|previous(?:ly)?|before|earlier|used to|was|were|had|"

@@ -2,5 +2,5 @@
 
 Not here: rerun's format (``tacgrasp.viewer``), episodes themselves, which viewers of MCAP open.
 
-May import: primitives, tacgrasp.episodes.
+May import: cltp, primitives, tacgrasp.episodes.
 """

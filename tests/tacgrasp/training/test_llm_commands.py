@@ -536,7 +536,7 @@ def test_a_copy_onto_a_full_disk_is_told_in_one_line_and_leaves_nothing(
     flags = argv.format(**{"from": weights, "methods": methods}).split()
     places = ["--data", str(data), "--out", str(out), "--threads", "1"]
     said = complaint(["train", *flags, *places], capsys)
-    assert f"{out / 'clip.part'}/" in said
+    assert f"{out / '.clip.part'}/" in said
     assert "can't be used: No space left on device; free space" in said
     assert not list(out.glob("*"))
 

@@ -86,7 +86,7 @@ def test_an_encoder_is_trained_and_a_model_behind_it_is_rated(
     )
     flags = ("--samples", "64", "--limit", "3")
     made = row("point-mae-llm", *flags)
-    group = tmp_path / "rows/paper-seed0-64-samples-3-contacts"
+    group = tmp_path / "rows/paper-seed0-64-samples-3-contacts-precision-no"
     assert (group / "point_mae/encoder").is_dir()
     assert (group / "point_mae_llm/lm").is_dir()
     assert set(made.scores) == {CAPTIONS}
