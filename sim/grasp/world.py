@@ -122,7 +122,6 @@ class Grasp:
         Args:
             force_n: True force [N].
         """
-        before = self.peak_kpa * _SAME_PRESSURE
         self.grips += 1
         self.contacts += 1
         if self.dropped or not self.fingers.reaches(self.offset_mm):
@@ -132,12 +131,17 @@ class Grasp:
         if self.shear is not None:
             self.shear.press(self.patch)
         self.peak_force_n = max(self.peak_force_n, force_n)
-        self.peak_kpa = max(self.peak_kpa, self.patch.peak_kpa)
-        if self.patch.peak_kpa > max(before, self.fingers.bruise_kpa):
+        if self._bruises(self.patch):
             if self.grips == 1:
                 self.bruised_at_start = True
             else:
                 self.bruised = True
+
+    def _bruises(self, patch: Patch) -> bool:
+        """Note the pressure of a new patch; whether it is beyond the limit and any before."""
+        before = self.peak_kpa * _SAME_PRESSURE
+        self.peak_kpa = max(self.peak_kpa, patch.peak_kpa)
+        return patch.peak_kpa > max(before, self.fingers.bruise_kpa)
 
     def open(self) -> None:
         """Open the fingers; a lifted body falls, without harm from up to 1 mm above its support."""
@@ -243,9 +247,7 @@ class Grasp:
             self._let_go()
         elif math.dist(patch.offset_mm, self.offset_mm) > _FOLLOW_MM:
             self.patch = self.fingers.press(self.offset_mm, patch.force_n)
-            before = self.peak_kpa * _SAME_PRESSURE
-            self.peak_kpa = max(self.peak_kpa, self.patch.peak_kpa)
-            self.bruised |= self.patch.peak_kpa > max(before, self.fingers.bruise_kpa)
+            self.bruised |= self._bruises(self.patch)
 
     def displace(self, by_mm: tuple[float, float]) -> None:
         """Put the fingers, and a held body with them, elsewhere; no time passes."""

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TypeVar
@@ -81,16 +81,17 @@ def _foreign(path: Path | None, benchmark: str) -> UsageError:
 
 def weights_sum(weights: Path) -> str:
     """What names weights: the checksum of their manifests, which hold those of their files."""
-    total = hashlib.sha256()
-    for path in sorted(weights.glob("*/manifest.json")):
-        total.update(path.read_bytes())
-    return total.hexdigest()[:16]
+    return _checksum(weights.glob("*/manifest.json"))
 
 
 def shear_models_sum() -> str:
     """What names the models that tell slips and reserves: the checksum of their files."""
+    return _checksum(MODELS.glob("*.npz"))
+
+
+def _checksum(files: Iterable[Path]) -> str:
     total = hashlib.sha256()
-    for path in sorted(MODELS.glob("*.npz")):
+    for path in sorted(files):
         total.update(path.read_bytes())
     return total.hexdigest()[:16]
 

@@ -14,6 +14,11 @@ import tyro
 from tacgrasp.base.errors import UsageError
 
 
+def names_in(text: str) -> list[str]:
+    """Names in a list that is separated by commas, each once."""
+    return list(dict.fromkeys(name.strip() for name in text.split(",")))
+
+
 @dataclass(frozen=True, kw_only=True)
 class BenchmarkSettings:
     """What every benchmark takes.

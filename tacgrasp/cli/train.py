@@ -24,6 +24,7 @@ from tacgrasp.base.errors import UsageError
 from tacgrasp.base.folders import check_folder
 from tacgrasp.cli.flags import parse, subcommand
 from tacgrasp.training.requests import (
+    RefitRequest,
     TrainAllRequest,
     TrainLlmRequest,
     also_fraction,
@@ -239,21 +240,13 @@ class BaseFlags:
 
 
 @dataclass(frozen=True)
-class RefitFlags:
+class RefitFlags(RefitRequest):
     """What is fitted after the training of an encoder, fitted anew.
 
     Attributes:
-        weights: Folder of weights, or of one method.
-        data: Folder of contacts, which must exist.
-        coarse: Fraction of contacts that are felt by a coarse sensor, as in their training.
-        seed: Random seed of contacts, noise and fit.
         threads: Threads of torch; one for each core when not given.
     """
 
-    weights: Path
-    data: Path = Path("runs/full")
-    coarse: float = 0.0
-    seed: int = 0
     threads: int | None = None
 
     def train(self, command: str) -> None:
@@ -278,9 +271,7 @@ class TrainForceFlags(RefitFlags):
     def _fit(self, command: str, report: ProgressReport) -> None:
         from tacgrasp.training.force import train_force
 
-        train_force(
-            self.weights, self.data, command, coarse=self.coarse, seed=self.seed, report=report
-        )
+        train_force(self, command, report)
 
 
 @dataclass(frozen=True)
@@ -290,9 +281,7 @@ class TrainIntervalsFlags(RefitFlags):
     def _fit(self, command: str, report: ProgressReport) -> None:
         from tacgrasp.training.force import train_intervals
 
-        train_intervals(
-            self.weights, self.data, command, coarse=self.coarse, seed=self.seed, report=report
-        )
+        train_intervals(self, command, report)
 
 
 @dataclass(frozen=True)

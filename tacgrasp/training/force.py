@@ -14,75 +14,53 @@ from cltp.checkpoints.card import CARD, renew_card
 from cltp.checkpoints.tac3d_llm import load_encoder, save_encoder
 from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset
+from cltp.data.sampler import Augmentation
 from cltp.encoder.encoder import TactileEncoder
 from cltp.encoder.heads import LEAST_CONTACTS, StateHeads
 from cltp.evaluation.splits import LEARNING_NOISE
 from cltp.train.calibration import LEAST_FORCE_CONTACTS, calibrate_heads, fit_force
 from cltp.train.stage import ProgressReport, TrainingRun, silent
 from tacgrasp.base.errors import UsageError
+from tacgrasp.training.requests import RefitRequest
 from tacgrasp.training.upkeep import write_manifests
 
 
-def train_force(
-    weights: Path,
-    data: Path,
-    command: str,
-    *,
-    coarse: float = 0.0,
-    seed: int = 0,
-    report: ProgressReport = silent,
-) -> None:
+def train_force(request: RefitRequest, command: str, report: ProgressReport = silent) -> None:
     """Fit a force head and write the encoder with it, the manifests and the model card.
 
     Args:
-        weights: Folder of weights, or of one method, with an encoder on the grid of all points.
-        data: Data set of contacts.
+        request: The weights, with an encoder on the grid of all points, and the contacts.
         command: The command line, for the model card.
-        coarse: Fraction of contacts that are felt by a coarse sensor, as in training.
-        seed: Random seed of the choice of contacts, of the noise and of the fit.
         report: Receives the progress.
 
     Raises:
         UsageError: The encoder takes other points, or the data set is too small.
         TouchError: Weights or data can't be used.
     """
-    folder = weights / "encoder"
+    folder = request.weights / "encoder"
     encoder, heads = load_encoder(folder)
     heads.force = None
-    contacts = ContactDataset(data)
-    run = TrainingRun(data=data, out=weights, seed=seed, report=report)
-    noise = replace(LEARNING_NOISE, coarse=coarse)
+    contacts, run, noise = _begun(request, report)
     fit_force(run, encoder.eval(), heads.eval(), noise)
     if heads.force is None:
         raise UsageError(
             f"a force head needs an encoder on the grid of all points, with intervals, and "
             f"{LEAST_FORCE_CONTACTS} contacts to learn from; {folder} has the tokenizer "
-            f"{encoder.config.tokenizer!r}, {data} {len(contacts)} contacts: tacgrasp data "
+            f"{encoder.config.tokenizer!r}, {request.data} {len(contacts)} contacts: tacgrasp data "
             "generate --set full"
         )
-    _write(weights, encoder, heads, {"force head": f"`{command}`, {_origin(contacts)}"})
+    _write(request.weights, encoder, heads, {"force head": f"`{command}`, {_origin(contacts)}"})
 
 
-def train_intervals(
-    weights: Path,
-    data: Path,
-    command: str,
-    *,
-    coarse: float = 0.0,
-    seed: int = 0,
-    report: ProgressReport = silent,
-) -> None:
+def train_intervals(request: RefitRequest, command: str, report: ProgressReport = silent) -> None:
     """Set the intervals of an encoder's numbers anew, and write it; what else it reads stays.
 
     A force head reads the intervals too, and is fitted to them where the data has as many contacts
     as it was fitted by (``fit_force``).
 
     Args:
-        weights: Folder of weights, or of one method, with an encoder that reads intervals.
-        data: Data set of contacts.
+        request: The weights, with an encoder that reads intervals, and the contacts.
         command: The command line, for the model card.
-        coarse: Fraction of contacts that are felt by a coarse sensor, as in training.
-        seed: Random seed of the choice of contacts, of the noise and of the fit.
         report: Receives the progress.
 
     Raises:
@@ -90,21 +68,29 @@ def train_intervals(
             learned from.
         TouchError: Weights or data can't be used.
     """
-    encoder, heads = load_encoder(weights / "encoder")
-    contacts = ContactDataset(data)
+    encoder, heads = load_encoder(request.weights / "encoder")
+    contacts, run, noise = _begun(request, report)
     held_out = int((contacts.column("split") == Split.VALIDATION.value).sum())
     if not heads.has_intervals or held_out < LEAST_CONTACTS:
         raise UsageError(
             f"intervals are set for heads that have them, by {LEAST_CONTACTS} contacts of a split "
-            f"'validation'; {data} has {held_out} of them: tacgrasp data generate --set full"
+            f"'validation'; {request.data} has {held_out} of them: tacgrasp data generate --set "
+            "full"
         )
-    run = TrainingRun(data=data, out=weights, seed=seed, report=report)
-    noise = replace(LEARNING_NOISE, coarse=coarse)
     force, heads.force = heads.force, None
     calibrate_heads(run, encoder.eval(), heads.eval(), noise)
     if force is not None:
         fit_force(run, encoder, heads, noise, force)
-    _write(weights, encoder, heads, {"intervals": f"`{command}`, {_origin(contacts)}"})
+    _write(request.weights, encoder, heads, {"intervals": f"`{command}`, {_origin(contacts)}"})
+
+
+def _begun(
+    request: RefitRequest, report: ProgressReport
+) -> tuple[ContactDataset, TrainingRun, Augmentation]:
+    """The contacts, what a fit by them shares, and their noise."""
+    run = TrainingRun(data=request.data, out=request.weights, seed=request.seed, report=report)
+    noise = replace(LEARNING_NOISE, coarse=request.coarse)
+    return ContactDataset(request.data), run, noise
 
 
 def _origin(contacts: ContactDataset) -> str:

@@ -174,3 +174,20 @@ class TrainLlmRequest(TrainAllRequest):
             raise UsageError(f"{' and '.join(given)} both name a language model; give one")
         if self.joint_steps is not None and (self.start is None or self.joint_steps < 1):
             raise UsageError("--joint-steps must be at least 1, and is for training on by --start")
+
+
+@dataclass(frozen=True)
+class RefitRequest:
+    """What is fitted after the training of an encoder, fitted anew.
+
+    Attributes:
+        weights: Folder of weights, or of one method.
+        data: Folder of contacts, which must exist.
+        coarse: Fraction of contacts that are felt by a coarse sensor, as in their training.
+        seed: Random seed of contacts, noise and fit.
+    """
+
+    weights: Path
+    data: Path = Path("runs/full")
+    coarse: float = 0.0
+    seed: int = 0

@@ -65,6 +65,17 @@ _TYPED = (
 )
 """How numbers are typed: in quotes, in bold, with their unit in brackets."""
 
+_SIGNS = str.maketrans(
+    {
+        **dict.fromkeys("≦⪅≲≯⩽", "<="),
+        **dict.fromkeys("≧⪆≳≮⩾", ">="),
+        **dict.fromkeys("≪≱", "<"),
+        **dict.fromkeys("≫≰", ">"),
+        "¬": " not ",
+    }
+)
+"""Signs of comparison, written as those that bounds are read by."""
+
 _FOREIGN_BOUNDS = (
     (r"\b(?:höchstens|hoechstens|maximal|maximaal|hoogstens|nicht mehr als|nicht über|niet meer dan|au plus|au maximum|pas plus (?:de|que)|como m[áa]ximo|a lo sumo|no m[áa]s de|al massimo|non più di|no máximo|högst|højst|enintään)(?= (?:(?:de|di|von) )?\d)", "at most"),
     (r"\b(?:mindestens|wenigstens|nicht weniger als|minstens|ten ?minste|au moins|pas moins (?:de|que)|como m[íi]nimo|por lo menos|al menos|almeno|come minimo|pelo menos|no mínimo|minst|mindst|vähintään)(?= (?:(?:de|di|von) )?\d)", "at least"),
@@ -93,10 +104,7 @@ def plain(text: str) -> str:
     text = re.sub(f"[{_MARKS}]", "'", text)  # before compatible forms: '´' would become a space
     text = re.sub("(?:(\\d+) ?)?([½¼¾⅓⅔⅛])", _mixed, text)
     text = re.sub("(?<=[\\w)])([⁺⁻]?[⁰¹²³⁴⁵⁶⁷⁸⁹])", r"^\1", text)  # '0.5²' is no 0.52
-    text = re.sub("[≦⪅≲≯⩽]|!>", "<=", re.sub("[≧⪆≳≮⩾]|!<", ">=", text))
-    text = text.translate(
-        {ord("≰"): ">", ord("≱"): "<", ord("≪"): "<", ord("≫"): ">", ord("¬"): " not "}
-    )
+    text = text.replace("!>", "<=").replace("!<", ">=").translate(_SIGNS)
     text = unicodedata.normalize("NFKC", html.unescape(text)).lower()
     text = "".join(c for c in text if unicodedata.category(c) != "Cf")  # what nobody sees
     text = text.replace("()", "").replace("−", "-")

@@ -144,9 +144,11 @@ def read_forces(text: str) -> tuple[list[Force], str, str]:
                 r"[.;,]\s?|\b(?:instead of|rather than|because|since)\b", text[stop:], maxsplit=1
             )[0]
             clause = before + after
-            is_denied = kind == "value" and bool(_DROPPED.search(left) or NOT.search(before))
             may_be_denied = kind == "value" or (kind == "least" and not _LESS.search(words))
-            is_denied |= may_be_denied and kind == "least" and bool(_NOT_WITH.search(left))
+            if kind == "value":
+                is_denied = bool(_DROPPED.search(left) or NOT.search(before))
+            else:
+                is_denied = may_be_denied and bool(_NOT_WITH.search(left))
             if is_denied and len(NOT.findall(before)) % 2 and not _NO_DENIAL.search(before):
                 denials.add(words)
             behind = text[stop:].lstrip(" .,;-–—")

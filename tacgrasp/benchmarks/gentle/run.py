@@ -16,7 +16,7 @@ from tacgrasp.benchmarks.gentle.episode import FruitFacts, GentleResult, draw_fr
 from tacgrasp.benchmarks.loop.contestants import PolicyAndForce, language_model, swept_forces_n
 from tacgrasp.benchmarks.loop.strawberry import ROUND, num_verified, still_running, wilson
 from tacgrasp.benchmarks.results_file import SeedResults, shear_models_sum, weights_sum
-from tacgrasp.benchmarks.settings import GentleSettings
+from tacgrasp.benchmarks.settings import GentleSettings, names_in
 from tacgrasp.config.layers import load
 from tacgrasp.config.schema import RunConfig
 from tacgrasp.console import make_table_console
@@ -36,8 +36,7 @@ def run(settings: GentleSettings) -> None:
         UsageError: An unknown arm, or a file with figures of something else.
         TouchError: An unknown sensor, or the language model's weights can't be used.
     """
-    given = settings.arms.split(",") if settings.arms else ARMS
-    names = list(dict.fromkeys(name.strip() for name in given))
+    names = names_in(settings.arms) if settings.arms else list(ARMS)
     if unknown := [name for name in names if name not in ARMS]:
         raise UsageError(f"no arm is called {unknown[0]!r}; known: {', '.join(ARMS)}")
     changes = {"sensor": settings.sensor, "weights": settings.weights}

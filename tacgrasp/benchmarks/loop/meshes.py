@@ -30,7 +30,7 @@ from tacgrasp.benchmarks.loop.contestants import informed_band
 from tacgrasp.benchmarks.loop.meshes_plot import write_plot
 from tacgrasp.benchmarks.loop.strawberry import EpisodeResult, run_seed
 from tacgrasp.benchmarks.pool import each_result
-from tacgrasp.benchmarks.settings import MeshesSettings
+from tacgrasp.benchmarks.settings import MeshesSettings, names_in
 from tacgrasp.config.layers import load
 from tacgrasp.config.schema import RunConfig
 from tacgrasp.config.terms import contract_of
@@ -122,7 +122,7 @@ def _paths(settings: MeshesSettings) -> list[Path]:
         raise UsageError(f"--data {settings.data} has no mesh ({', '.join(SUFFIXES)})")
     if settings.names is None:
         return files
-    wanted = [name.strip() for name in settings.names.split(",")]
+    wanted = names_in(settings.names)
     unknown = [name for name in wanted if name not in {path.stem for path in files}]
     if unknown:
         raise UsageError(f"--names: {settings.data} has no mesh {', '.join(unknown)}")

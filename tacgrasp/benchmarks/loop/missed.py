@@ -30,7 +30,7 @@ from tacgrasp.base.errors import UsageError
 from tacgrasp.benchmarks.figures import number_table
 from tacgrasp.benchmarks.loop.strawberry import wilson
 from tacgrasp.benchmarks.results_file import SeedResults, weights_sum
-from tacgrasp.benchmarks.settings import MissedSettings
+from tacgrasp.benchmarks.settings import MissedSettings, names_in
 from tacgrasp.config.layers import load
 from tacgrasp.config.schema import RunConfig
 from tacgrasp.config.terms import contract_of
@@ -223,7 +223,7 @@ def run(settings: MissedSettings) -> bool:
     """
     weights, seeds, first_seed = settings.weights, settings.seeds, settings.first_seed
     episodes = len(seeds)
-    policies = tuple(dict.fromkeys(name.strip() for name in settings.policies.split(",")))
+    policies = tuple(names_in(settings.policies))
     if not set(policies) <= set(POLICIES):
         raise UsageError(
             f"bench missed needs policies out of {', '.join(POLICIES)}, got {settings.policies!r}"

@@ -30,7 +30,7 @@ from tacgrasp.benchmarks.loop.contestants import (
     swept_forces_n,
 )
 from tacgrasp.benchmarks.results_file import SeedResults, weights_sum
-from tacgrasp.benchmarks.settings import StrawberrySettings
+from tacgrasp.benchmarks.settings import StrawberrySettings, names_in
 from tacgrasp.config.layers import load
 from tacgrasp.config.schema import RunConfig
 from tacgrasp.config.terms import contract_of
@@ -211,7 +211,7 @@ def run(settings: StrawberrySettings) -> None:
         UsageError: An unknown policy, or a file with figures of something else.
     """
     config = _config(settings)
-    policies = list(dict.fromkeys(name.strip() for name in settings.policies.split(",")))
+    policies = names_in(settings.policies)
     if any(name not in NAMES for name in policies):
         raise UsageError(
             f"bench needs policies out of {', '.join(NAMES)}; got {', '.join(policies)}"

@@ -47,7 +47,7 @@ from tacgrasp.benchmarks.robustness.store import (
     Store,
     job_name,
 )
-from tacgrasp.benchmarks.settings import RobustnessSettings
+from tacgrasp.benchmarks.settings import RobustnessSettings, names_in
 from tacgrasp.config.layers import load
 from tacgrasp.config.schema import RunConfig
 from tacgrasp.policy_factory import default_weights
@@ -251,7 +251,7 @@ def _names(text: str, known: tuple[str, ...]) -> list[str]:
     Raises:
         UsageError: One is unknown.
     """
-    names = list(dict.fromkeys(name.strip() for name in text.split(",")))
+    names = names_in(text)
     if unknown := [name for name in names if name not in known]:
         raise UsageError(f"unknown {', '.join(unknown)}; known: {', '.join(known)}")
     return names
