@@ -3,5 +3,5 @@
 from __future__ import annotations
 
 NO_BODY_MM = 50.0
-"""Gap from which there is no body [mm]; it replaces infinity. Our choice: more than a body is curved
-over a pad."""
+"""Gap from which there is no body [mm]; it replaces infinity. Our choice: more than a body is
+curved over a pad."""
