@@ -70,12 +70,12 @@ VARIANTS: Mapping[str, EncoderVariant] = {
     # Ours: all heights in 75 × 100 cells, convolutions down to 7 × 9 groups.
     "grid": EncoderVariant(
         build=lambda c: GridTokenizer(
-            c.dim, c.stem_dim, c.stem_blocks, has_pressure=bool(c.pressure)
+            c.dim, c.stem_dim, c.stem_blocks, sees_pressure=bool(c.pressure)
         ),
         presets={
             "grid": _GRID,
             "grid_pressure": {**_GRID, "pressure": 1},
-            "grid_curves": {**_GRID, "pressure": 1, "curves": 224, "projection": 512},
+            "grid_curves": {**_GRID, "curves": 224, "projection": 512},
             "tiny_grid": {
                 **{"num_groups": 63, "dim": 48, "depth": 1, "heads": 2, "stem_dim": 4},
                 **{"bearing": 16},
@@ -158,7 +158,7 @@ class EncoderConfig:
         projection: Hidden width between the pooled tokens and the aligned feature; 0 for one
             matrix, as in the paper.
         grades: Bins of the piecewise linear encoding of height quantiles; 0 for none.
-        pressure: 1 for a grid that sees the pressure under its heights too, 0 for all others.
+        pressure: 1 for a grid whose stem sees the pressure under its heights too, 0 for all others.
         curves: Pressures of each map, in falling order, that stand beside the pooled tokens with
             the height quantiles; 0 for none of both.
 
@@ -201,9 +201,9 @@ class EncoderConfig:
             raise TouchError(f"height quantiles are not for {self.tokenizer}")
         if self.pressure and not self.counts_cells:
             raise TouchError(f"{self.tokenizer} sees no pressure, only grids do")
-        if self.curves and not (self.pressure and self.bearing and self.curves > LARGEST):
+        if self.curves and not (self.counts_cells and self.bearing and self.curves > LARGEST):
             raise TouchError(
-                f"curves need pressure, height quantiles and more than {LARGEST} ranks, got "
+                f"curves need a grid, height quantiles and more than {LARGEST} ranks, got "
                 f"{self.curves}"
             )
 
@@ -294,7 +294,7 @@ class TactileEncoder(nn.Module):
         """
         config, maps = self.config, None
         if config.counts_cells:
-            maps = grid_maps(points, has_pressure=bool(config.pressure))
+            maps = grid_maps(points, has_pressure=bool(config.pressure or config.curves))
         tokens = self.tokenizer(points if maps is None else maps)
         terms = None if self.bearing is None else self.bearing(points, maps)
         x = self.mixed(tokens, self.class_token(tokens, terms))

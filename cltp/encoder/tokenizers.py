@@ -80,15 +80,18 @@ class GridTokenizer(nn.Module):
         dim: Width of the tokens.
         stem_dim: Channels at 38 × 50; three times as many at 19 × 25.
         blocks: Pairs of convolutions at either size.
-        has_pressure: Whether the pressure under the heights is seen beside them.
+        sees_pressure: Whether the pressure under the heights is seen beside them.
     """
 
     GROUPS = 63
 
-    def __init__(self, dim: int, stem_dim: int, blocks: int, *, has_pressure: bool = False) -> None:
+    def __init__(
+        self, dim: int, stem_dim: int, blocks: int, *, sees_pressure: bool = False
+    ) -> None:
         super().__init__()
+        self.sees_pressure = sees_pressure
         wide = 3 * stem_dim
-        channels = 5 + len(DAMPED) * has_pressure
+        channels = 5 + len(DAMPED) * sees_pressure
         self.stem = nn.Conv2d(channels, stem_dim, 3, stride=2, padding=1)
         self.mix = nn.Sequential(*(ConvBlock(stem_dim) for _ in range(blocks)))
         self.widen = nn.Conv2d(stem_dim, wide, 3, stride=2, padding=1)
@@ -99,7 +102,7 @@ class GridTokenizer(nn.Module):
 
     def forward(self, maps: GridMaps) -> Tensor:
         """Maps of clouds to tokens (B, 63, C)."""
-        seen = grid_channels(maps)
+        seen = grid_channels(maps, sees_pressure=self.sees_pressure)
         x = self.mix(self.stem(seen.contiguous(memory_format=torch.channels_last)))
         x = self.mix_wide(self.widen(F.relu(x)))
         x = self.group(F.relu(x))
@@ -155,8 +158,8 @@ def sums_of_nine(maps: Tensor) -> Tensor:
     return down[..., :-2] + down[..., 1:-1] + down[..., 2:]
 
 
-def grid_channels(maps: GridMaps) -> Tensor:
-    """Indentation, its fine relief, positions, where the pad is, and pressures if they are there.
+def grid_channels(maps: GridMaps, *, sees_pressure: bool = False) -> Tensor:
+    """Indentation, its fine relief, positions, where the pad is, and pressures if asked for.
 
     Shape (B, 5 or more, rows, columns).
 
@@ -164,7 +167,9 @@ def grid_channels(maps: GridMaps) -> Tensor:
     becomes 1, 10 mm along the pad becomes 1.
     """
     x, y, inside, height, mean, pressures, _ = maps
-    channels = [5 * height, 50 * (height - mean), x, y, inside, *pressures.unbind(dim=1)]
+    channels = [5 * height, 50 * (height - mean), x, y, inside]
+    if sees_pressure:
+        channels += pressures.unbind(dim=1)
     return torch.stack(channels, dim=-1).permute(0, 3, 1, 2)
 
 

@@ -161,6 +161,13 @@ ROWS: Mapping[str, RowRecipe] = {
         preset="grid_curves",
         optimiser="muon",
     ),
+    "cltp_muon_curves_full": RowRecipe(
+        about="the same, learned from the set full without the unseen objects",
+        method="cltp",
+        preset="grid_curves",
+        learns_from="full",
+        optimiser="muon",
+    ),
     "cltp_quarter": _quarter("CLTP, all points, a quarter of the budget", _USUAL),
     "cltp_muon_quarter": replace(
         _quarter("CLTP, all points, by Muon, a quarter of the budget", _USUAL), optimiser="muon"

@@ -2,6 +2,7 @@ import io
 import math
 import shutil
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -279,10 +280,24 @@ def test_ordered_curves_stand_beside_what_is_learned_whatever_that_is(tmp_path: 
     assert load_encoder(tmp_path / "encoder")[0].config == config
 
 
-def test_ordered_curves_need_a_grid_with_pressure() -> None:
-    with pytest.raises(TouchError, match="curves need pressure, height quantiles and more than 16"):
+def test_ordered_curves_need_a_grid() -> None:
+    with pytest.raises(TouchError, match="curves need a grid, height quantiles and more than 16"):
         EncoderConfig(bearing=64, curves=112)
-    assert PRESETS["grid_curves"].identity != PRESETS["grid_pressure"].identity
+    assert PRESETS["grid_curves"].identity != PRESETS["grid"].identity
+
+
+def test_a_stem_sees_the_pressure_only_where_it_is_asked_to() -> None:
+    curves = PRESETS["grid_curves"]
+    assert curves.pressure == 0
+    assert TactileEncoder(curves).tokenizer.stem.in_channels == 5
+    both = replace(curves, pressure=1)  # as the first encoders with curves were
+    assert TactileEncoder(both).tokenizer.stem.in_channels == 7
+    assert both.pooled_dim == curves.pooled_dim
+    layout = both.variant.layout
+    cloud = cloud_from_heights(fake_contact(0).height_mm, MINI)
+    points = torch.from_numpy(encoder_input(cloud, layout)[None])
+    with torch.no_grad():
+        assert TactileEncoder(both).eval()(points).pooled.shape == (1, both.pooled_dim)
 
 
 def test_numbers_survive_their_transformation() -> None:
