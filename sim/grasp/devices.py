@@ -318,7 +318,9 @@ class SimSensor(_Device):
         self._last_shear: ShearField | None = None
         self._force_scale = force_scale
         self._grasp, self._clock, self._spec, self._seed = grasp, clock, spec, seed
-        self._noise = replace(noise, drift_mm=0.0)
+        # The drift goes on in time instead, and a marker that is not detected is a missing point.
+        point_loss = max(noise.point_loss, noise.marker_loss)
+        self._noise = replace(noise, drift_mm=0.0, point_loss=point_loss)
         self._frame_rng = np.random.default_rng([seed, 4])
         rng = np.random.default_rng([seed, 5])
         self._shape = grid_of(spec)

@@ -11,7 +11,7 @@ import numpy as np
 
 from cltp.sensing.force_calibration import ForceCalibration
 from cltp.tactile.noise_levels import NoiseLevels
-from cltp.tactile.sensor_noise import NoiseUnit
+from cltp.tactile.sensor_noise import NoiseUnit, spread_of
 from cltp.tactile.sensors import sensor_named
 from cltp.tactile.shear.noise import ShearUnit
 from primitives.devices import Pose
@@ -257,7 +257,7 @@ def build(
     if not isinstance(noise_level, NoiseLevels):
         part = FINE_PART.quantile(np.random.default_rng([seed, 7]).random())
         levels = replace(levels, fine=part * levels.fine)
-    noise = NoiseUnit.draw(sensor_rng, levels)
+    noise = NoiseUnit.draw(sensor_rng, levels, spread=spread_of(sensor))
     shear_unit = None
     if measures_shear:
         shear_rng, level = np.random.default_rng([seed, 8]), NoiseLevels.of(noise_level).fine

@@ -9,6 +9,7 @@ from scipy.ndimage import gaussian_filter
 
 from cltp import TouchError
 from cltp.tactile.measure import contact_state
+from cltp.tactile.noise_levels import NoiseLevels
 from primitives import LimitError, RobotError
 from primitives.devices import Pose
 from sim.grasp.devices import START_POSE
@@ -34,6 +35,27 @@ def test_the_same_seed_gives_the_same_touch_bit_for_bit():
 def test_noise_does_not_change_what_is_drawn():
     quiet, noisy = (build("strawberry", 7, noise_level=level) for level in (0.0, 1.0))
     assert quiet.truth() == noisy.truth()
+
+
+def test_a_sensor_has_the_noise_of_its_own_kind():
+    tilt_alone = NoiseLevels(fine=0.0, drift=0.0, scale=0.0)
+
+    def slopes(sensor: str) -> float:
+        tilts = []
+        for seed in range(60):
+            rig = build("peg", seed, sensor_name=sensor, noise_level=tilt_alone)
+            points = rig.sensor.read().points_mm
+            tilts.append(np.polyfit(points[:, 0], points[:, 2], 1)[0])
+        return float(np.std(tilts))
+
+    assert slopes("gelsight_mini") == pytest.approx(0.003, rel=0.4)
+    assert slopes("taxels") == pytest.approx(0.001, rel=0.4)
+    received = [
+        len(build("peg", seed, sensor_name="gelstereo").sensor.read().points_mm)
+        for seed in range(20)
+    ]
+    assert len(set(received)) > 1
+    assert 0.94 < np.mean(received) / 23**2 < 1.0
 
 
 def test_training_seeds_draw_starts_from_the_middle_and_benchmark_seeds_from_all():
