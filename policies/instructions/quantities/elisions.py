@@ -85,7 +85,7 @@ _HALF_RANGES = (
 
 _ALTERNATIVES = (
     re.compile(
-        rf"(?P<b>{NUMBER})(?=(?:, {_BARE})*,? (?:or|nor)(?: even| rather| maybe| perhaps| about| else)* {NUMBER}\s*(?P<u>(?:{UNIT})\b))"
+        rf"(?P<b>{NUMBER})(?=(?:, {_BARE})*(?:,? (?:or|nor)|,(?= (?:maybe|perhaps|possibly)))(?: even| rather| maybe| perhaps| about| else)* {NUMBER}\s*(?P<u>(?:{UNIT})\b))"
     ),
     re.compile(
         rf"{NUMBER}\s*(?P<u>(?:{UNIT})\b),? or(?: even| rather| maybe| perhaps| about| else)* (?P<b>{NUMBER}){_AFTER}"
@@ -104,6 +104,10 @@ _ON_A_SCALE = re.compile(
     rf"(?:{_BEFORE}|{_HELD_AT}|\b(?:hold|grip|squeeze)(?: it)? )(?P<a>{NUMBER})\s*(?:/|out of|of|on a scale of)\s*(?:\d+ to )?{_BARE}(?=\s*(?:$|[.,;:!?)]))"
 )
 """'At 7 out of 10'."""
+_BESIDE_SCALE = re.compile(
+    rf"\b{_SCALE} (?P<a>{NUMBER})(?= (?:grip|grasp|hold|squeeze|pinch|force|pressure|strength)\b)"
+)
+"""'Use level 3 grip'."""
 _THAN_THAT = re.compile(
     rf"(?P<by>{NUMBER})\s*(?:(?P<unit>(?:{UNIT})\b)|(?P<percent>%|percent|per cent))? (?:(?P<more>{_MORE})|{_LESS}) than (?:that|this|it)\b"
 )
@@ -156,7 +160,7 @@ def written_out(text: str) -> tuple[str, str]:
         while match := pattern.search(text):
             text = f"{text[: match.end('b')]} {match['u']}{text[match.end('b') :]}"
     text = _ONE_ALONE.sub(r"\g<before>1 \g<u>", text)
-    on_a_scale = _ON_A_SCALE.search(text)
+    on_a_scale = _ON_A_SCALE.search(text) or _BESIDE_SCALE.search(text)
     unitless = on_a_scale["a"] if on_a_scale else ""
     for pattern in (*_BARES, *((_CORRECTED,) if re.search(_ONE, text) else ())):
         at = 0

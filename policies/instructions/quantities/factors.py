@@ -70,7 +70,7 @@ def read_factor(text: str) -> tuple[float | None, str, str]:
         (rf"{percent} {_DOWN}", lambda m: 1 - number(m["p"]) / 100),
         (rf"\b(?:{_GO_UP}|{_UP})\b[^.;#]{{0,40}}?by (?:about |around )?{percent}", lambda m: 1 + number(m["p"]) / 100),
         (rf"\b(?:{_GO_DOWN}|{_DOWN})\b[^.;#]{{0,40}}?by (?:about |around )?{percent}", lambda m: 1 - number(m["p"]) / 100),
-        (rf"{percent} (?:of )?(?:{_USUAL}|usual|normal|full|standard|default)", lambda m: number(m["p"]) / 100),
+        (rf"{percent} (?:of )?(?:{_USUAL}(?!(?:\w+ ){{0,2}}?(?:pads?|areas?|gels?|sensors?|surface|skin|fruits?|berries|batch|tray|crates?|time|way|people|customers?|day|lot|harvest|crop)\b)|usual|normal|standard|default)", lambda m: number(m["p"]) / 100),
         (rf"{_FRACTION} {_UP}", lambda m: 1 + _part(m)),
         (rf"{_FRACTION} {_DOWN}", lambda m: 1 - _part(m)),
         (rf"\b(?:{_GO_UP}|{_UP})\b[^.;#]{{0,40}}?by (?:about |around )?{_FRACTION}", lambda m: 1 + _part(m)),

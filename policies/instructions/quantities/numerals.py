@@ -58,7 +58,7 @@ _CHAIN = re.compile(
 _PART = f"(?:{'|'.join(_PARTS)})s?"
 _PRONOUN = re.compile(
     r"\bone\b(?!-|,? ?(?:and (?:an?|one|1|three|3) |point |dot |comma |decimal |and \d| full | single "
-    rf"|(?:(?:to|or|and|up to) )?(?:{_WORD}\b|\d|half )|newt|milli|kilo|kg|kn\b|n\b|mn\b|gram|gf?\b"
+    rf"|(?:(?:to|or|and|up to|maybe|perhaps|possibly) )?(?:{_WORD}\b|\d|half )|newt|milli|kilo|kg|kn\b|n\b|mn\b|gram|gf?\b"
     r"|nw?t?e?w?tons?))"
 )
 """'One' that is no number: 'this one'."""
@@ -122,6 +122,7 @@ def in_digits(text: str) -> str:
         text,
     )
     text = re.sub(r"\ba couple of\b(?= newt)|\ba couple(?= newt)", "2", text)
+    text = re.sub(rf"\b(?:(half )?an?|(\d+)) dozen\b{_UNIT}", _dozens, text)
     return re.sub(
         r"\b(?:an?|single)(?: single| full| whole| mere)? (?=newton\b|(?:kilo(?:gram|newton)?|pound|ounce)(?:-force| of| force)|kgf\b|lbf\b|ozf\b)",
         "1 ",
@@ -175,6 +176,10 @@ def _cardinals(chain: str) -> str:
         last, joined = value if value >= 20 else 1, ""
     numbers.append(total + current)
     return (" and " if " and " in chain else " ").join(map(str, numbers))
+
+
+def _dozens(match: re.Match[str]) -> str:
+    return str(6 if match[1] else 12 * int(match[2] or 1))
 
 
 def _digits(words: str) -> str:

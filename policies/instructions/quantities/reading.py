@@ -72,11 +72,13 @@ class Quantities:
     rest: str = ""
 
 
+_FILLER = r"(?:um+|uh+|er+m?|hmm+|like|say|well|oh|let us say|let me say|i would say|you know|i guess|i do not know|i think|i suppose|whatever)"
 _FILLED = re.compile(
     rf"\b(?P<bound>at (?:the )?(?:very |absolute )?(?:most|least)|(?:no|not) (?:more|less|harder|higher) than)"
-    rf"(?: ?[,:;] ?|\.{{2,3}} ?| )(?:(?:um+|uh+|er+m?|hmm+|like|say|well|oh|let us say|let me say|i would say|you know|i guess)[ ,]+)*(?={NUMBER})"
+    rf"(?: ?[,:;] ?|\.{{2,3}} ?| )(?:{_FILLER}[ ,]+)*(?={NUMBER})|"
+    rf"\b(?P<bare>(?:more|less|harder|higher) than|over|above|below|under|exceed(?:ing)?|up to),? (?:{_FILLER}[ ,]+)+(?={NUMBER})"
 )
-"""'At most, say, 0.8 N', 'no more than, um, 1 N'."""
+"""'At most, say, 0.8 N', 'do not use more than, um, 1 N'."""
 _ELLIPSIS = re.compile(
     rf"\b(?:not|no) (?:an?|1|one|a single) (millinewton|newton|gram|mn|n|gf) (more|less)(?: than)? ({NUMBER})(?!\s*(?:{UNIT})\b)"
 )
@@ -97,16 +99,16 @@ def _plain_bound(match: re.Match[str]) -> str:
     """A bound beside its number; one that stands behind a force bounds that one instead."""
     if re.search(rf"{ONE_FORCE}[ ,]*$", match.string[: match.start()]):
         return match[0]
-    return f"{match['bound']} "
+    return f"{match['bound'] or match['bare']} "
 
 
 def read_quantities(text: str) -> Quantities:
     """Read the numbers of a plain text (``policies.instructions.english.text.plain``)."""
     text = _FILLED.sub(_plain_bound, in_digits(text))
-    text = re.sub(rf"\b(?:one|1) (?=0?\.\d+\s*(?:{UNIT})\b)", "", text)  # 'one third newton'
+    text = re.sub(rf"\b(?:one|1) (?=0\.\d+\s*(?:{UNIT})\b)", "", text)  # 'one third newton'
     text = _ELLIPSIS.sub(r"no \2 than \3 \1", text)
     text, masses = without_masses(text)
-    text = re.sub(rf"({NUMBER}), (?=newtons?\b)", r"\1 ", text)
+    text = re.sub(rf"({NUMBER}) ?, ?(?=(?:{UNIT})\b)", r"\1 ", text)
     text = re.sub(r"(?<=\d)['\u00a0\u202f ](?=\d{3}\b(?! ?mm))", "", text)  # 1 400 mN
     text = re.sub(rf"({NUMBER})\s?-?ish\b", r"\1", text)
     text = re.sub(rf"({NUMBER}) ?\(((?:{UNIT}))\)", r"\1 \2", text)
@@ -120,8 +122,8 @@ def read_quantities(text: str) -> Quantities:
         text = calculations.worked_out(calculations.with_shares(text))
         unsure = calculations.unsure_change(text)
     text, lone = without_lone(with_plain_tolerances(text))
-    text = with_plain_bounds(text)
     text = _CHAIN.sub(r"between \1 and \2 \3", text)
+    text = with_plain_bounds(text)
     text = _PAIR.sub(r"between \1 and \2 \3", text)
     plainly, unread = text, unknown_force(text)
     text, unitless = written_out(text)

@@ -51,9 +51,9 @@ _MALFORMED = re.compile(
     rf"(?P<a>{_DIGITS})\s*(?:{UNIT})\b|(?:{BEFORE_BOUND}|{BEFORE_VALUE})(?P<b>{_DIGITS})(?![.,]?\w)"
 )
 _NO_NUMBER = re.compile(
-    rf"(?<![\w.,])(?:\d[\d.,]*(?:[:;_'~|\\]\d[\d.,]*| ?\(\d+\)| over \d[\d.,]*)\s*|[a-z],\d[\d.,]*\s*|(?!0,)\d{{1,3}},\d{{3}}\s*(?=n(?:ewtons?)?\b)|(?<!\d )(?:ii+|iv|vi*|ix|xi*) )(?:{UNIT})\b"
+    rf"(?<![\w.,])(?:\d[\d.,]*(?:[:;_'~|\\]\d[\d.,]*| ?\(\d+\)| over \d[\d.,]*)\s*|(?<![\w.])[a-z][.,]\d[\d.,]*\s*|(?!0,)\d{{1,3}},\d{{3}}\s*(?=n(?:ewtons?)?\b)|(?<!\d )(?:ii+|iv|vi*|ix|xi*) )(?:{UNIT})\b"
 )
-"""'0:3 N', '0.8(1) N', '1 over 3 N', 'iv n', 'o,5 N'; '1,500 N', which may be 1.5 or 1500."""
+"""'0:3 N', '0.8(1) N', '1 over 3 N', 'iv n', 'o,5 N', 'l.2 N'; '1,500 N', which may be 1.5 or 1500."""
 
 
 _SIGNED_CHANGE = re.compile(
@@ -69,6 +69,15 @@ _OF_WEIGHT = re.compile(
     r"(?:own |(?:straw)?berry'?s? |fruit'?s? |object'?s? |egg'?s? )?(?:weight|mass)\b(?! (?:of )?(?:#|as|limit))"
 )
 """'Hold it with three times its weight'."""
+_PERCENT = rf"{NUMBER}\s*(?:%|percent|per cent)"
+_SHARE = rf"(?:{_PERCENT}|\b(?:half|(?:an?|\d) (?:third|quarter|fifth|tenth)s?))"
+_YOURS = r"(?: (?:the|your|its|my|our))?(?: (?:gripper|robot|motor|hand|arm)(?:'?s)?)?"
+_OF_MOST = re.compile(
+    rf"(?:{_PERCENT}(?: of)?{_YOURS} (?:max(?:imum)?|power|strength|capability)|"
+    rf"{_SHARE} of{_YOURS} (?:max(?:imum)?|full|peak|total|rated|available|capacity)|"
+    r"\bhalf (?:the |your |its )?max(?:imum)?)\b(?! (?:of |is |= ?)?\d)"
+)
+"""'At 40 % of maximum': what the gripper can do is nothing that a person has seen."""
 _VAGUE = re.compile(
     r"\b(?:some|(?:(?P<few>(?:a (?:good )?|only |just |the |with |use |using |apply |about |than |most )few|several)|"
     r"(?:a |any )?(?:handful|number|bunch|dozens|hundreds|lots?|loads?) of|umpteen|(?:god|who) knows how many)(?(few)(?: \d+(?:\.\d+)?)?)(?: odd)?)"
@@ -76,6 +85,7 @@ _VAGUE = re.compile(
 )
 """'A few newtons', 'several hundred millinewtons', whose hundred is in digits by then."""
 _DENIED_TWICE = re.compile(
+    r"\b(?:do|does|can|could|must|may|should|shall|will|would) (?:not|never) not\b|\bnever not\b|"
     r"\bnot (?:want|wish|like|need|ask|expect)\b[^.;:,#\d]{0,30}?\b(?:not|never|avoid) (?:to )?(?:exceed|go (?:over|above|beyond|past)|pass|top|surpass|cross|(?:use|apply) (?:more|less) than|(?:fall|drop|go) (?:below|under))"
 )
 
@@ -125,6 +135,8 @@ def unknown_force(text: str) -> str:
         return f"{match[0]!r} is no force; say it as '1.2 N'"
     if match := _OF_WEIGHT.search(text):
         return f"{match[0]!r} is a multiple of a weight; say the force in newtons, as in '1.5 N'"
+    if match := _OF_MOST.search(text):
+        return f"{match[0]!r} is a part of what the gripper can do; say newtons, as in '1.5 N'"
     if match := _SIGNED_CHANGE.search(text):
         return f"{match[0].strip()!r} has a sign and a direction; say 'half as hard' or '20 % less'"
     if match := _FORMULA.search(text):
