@@ -49,7 +49,7 @@ _LIFTED = re.compile(
 )
 """'There is no need to stay below 1 N': a bound that is lifted asks for nothing."""
 _THING = rf"(?:the |an? |my |our |your |his |her |that |this |those |these |all |every |each |any )?(?:(?:other|raw|fresh|green|next|neighbou?ring|big|small) )*(?P<object>{words.any_of('other_object')}|(?<=other )(?!(?:straw)?berr|fruit)\w+)\b(?: over there| (?:in|on|at) the \w+| next door| beside it)?"
-_BOUND = r"(?:(?:upper|lower|force|grip|hard|top|safe|allowed|maximum|minimum|max|min) )*(?:limits?|max(?:imum)?|min(?:imum)?|ceiling|cap|bound|threshold|force|target|set-?point)"
+_BOUND = r"(?:(?:upper|lower|force|grip|hard|top|safe|allowed|maximum|minimum|max|min) )*(?:limits?|max(?:imum)?|min(?:imum)?|ceiling|cap|bound|threshold|force|target|set-?point|setting|preset|recipe|profile)"
 _FIGURE = rf"(?:(?:of|at|is|was|are|to|about|around|only|just|at most|at least|no more than|not more than|up to|never more than|under|below|max|maximum|:|=) ?)*(?P<force>{ONE_FORCE}(?: ?(?:to|-|–|and) ?{ONE_FORCE})?)"
 _BOUND_OF = tuple(
     re.compile(pattern)
@@ -67,6 +67,12 @@ _HELD = re.compile(
     rf"\b{words.any_of('hold')}(?: up| on| onto| hold of)? (?:(?:the|a|an|this|that|my|our|your|these|those|another|some) )?(?:\w+ ){{0,2}}?(?P<object>{OBJECT})"
 )
 """'Pick the ripe berry'."""
+_AN_OBJECT = rf"(?:for|on|to) (?:the |this |these |my |our |an? )?{OBJECT}"
+_GIVEN = re.compile(
+    rf"\b(?:use|apply|take|set|try|give|go with|make it)\b[^.;]*{ONE_FORCE}|"
+    rf"{ONE_FORCE} {_AN_OBJECT}|\b{_AN_OBJECT}\b[^.;]*{ONE_FORCE}"
+)
+"""'Use 1 N on the berry'."""
 _SAME = re.compile(
     r"\b(?:like|as if|as though|as with|too|also|same|treat|use the|both|either|or)\b"
 )
@@ -102,6 +108,8 @@ def without_other_forces(text: str) -> str:
         others = {_kind(name) for name in named if not _ANY.fullmatch(name)}
         is_named = not _ANY.fullmatch(match["object"])
         is_another = is_named and others and _kind(match["object"]) not in others
+        if re.search(ONE_FORCE, rest) and not (_HELD.search(rest) or _GIVEN.search(rest)):
+            continue  # 'the tomato gets 2 N, the berry 1 N' does not say which one is held
         if is_another or _THAT_TOOK.match(match[0]):
             text = f"{text[: match.start('force')]}{MARK}{text[match.end('force') :]}"
     return text

@@ -38,6 +38,8 @@ _PLAIN: tuple[tuple[str, str], ...] = (
     (rf"\b(?:stay|steer|keep|remain)\w* (?:well |far |right )?(?:away|clear|off|out)(?: (?:from|of))?(?: the)? {_ONE}", r"at most \g<one>"),
     (rf"{_ONE}{_WHAT} (?:should|must|is|ought to|has)(?: to)? (?:best |better )?(?:be )?(?:avoided|excluded|shunned|off the table)\b", r"at most \g<one>"),
     (rf"\b(prefer|rather have|would take) {_ONE} (?:to|over|than) {NUMBER}\s*(?:{UNIT})\b", r"\1 \g<one>"),
+    (rf"\b(?:no|not|never)\b[^.;:,#\d]{{0,30}}? (?:(?:force|value|setting|grip) but|other (?:force|value|setting|grip) than|other than|except|apart from)(?: for| with| at)? {_ONE}", r"exactly \g<one>"),
+    (rf"\b(?:(?:do|must|should|may) not|never) (\w+)(?: it)?(?: with| at)? not {_ONE}", r"\1 exactly \g<one>"),
     (rf"\b(?:except|other than|apart from|all but|excluding)(?: for)? {_ONE}", r"at most \g<one>"),
     (rf"({_DENIED}{_THERE} ?){_ONE}{_OR_MORE}", r"\1more than \g<one>"),
     (rf"({_DENIED}{_THERE} ?){_ONE}{_OR_LESS}", r"\1less than \g<one>"),

@@ -8,6 +8,7 @@ from typing import Literal
 from policies.instructions.english import words as english
 from policies.instructions.english.denials import FORBIDDEN_AFTER, NO_CASE
 from policies.instructions.quantities.force import MARK, WORKED_OUT, Force, Kind
+from policies.instructions.quantities.masses import OBJECT
 from policies.instructions.quantities.outcomes import EarlierGrip, is_again, outcome
 from policies.instructions.quantities.relations import NOT, relation
 from policies.instructions.quantities.spans import force_spans
@@ -35,11 +36,13 @@ _WITHIN = re.compile(r"(?:between|from|in|within)\b")
 _CORRECTION = re.compile(
     rf"\b(?:no,? wait|wait,? no|make (?:that|it)|{english.any_of('correction')}|in other words|i\.e\.|meaning|sorry|(?:hmm+|oh),? no|actually|(?:or )?better(?: still| yet)?(?=[ ,:]*$))\b[ ,:-]*"
 )
-_TAKEN_BACK = re.compile(rf"[\s.,;:!–—-]*\b{english.any_of('correction')}[\s.!]*$")
-"""Behind a force: nothing takes its place ('1 N. Scratch that.')."""
+_TAKEN_BACK = re.compile(
+    rf"[\s.,;:!…–—-]*\b(?:no,? wait|wait,? no|{english.any_of('correction')})(?:[\s.!]*$|[ ,.;:!…–—-]+[^\d]*\b{english.any_of('grip_word')})"
+)
+"""Behind a force: no other one takes its place ('1 N. Scratch that.', '2 N, oops, gently')."""
 _WRONG = (
     r"(?:(?:got|gets|had|has|wrote|copied|read|typed|put|took|set|noted|scribbled|jotted)(?: (?:it|that|this|them|the \w+))?(?: down| up)? (?:all )?(?:wrong(?:ly)?|incorrect(?:ly)?|in error|by mistake)|"
-    r"(?:is|was|are|were|'s|looks|seems)(?: (?:just|simply|plain|clearly|definitely|totally|completely|obviously|quite|all))? (?:wrong|incorrect|mistaken|inaccurate|outdated|out of date|obsolete|rubbish|nonsense|garbage|bogus|(?:not|never) (?:right|correct|true)|an? (?:typo|mistake|misprint|error|slip|old (?:figure|value|number)))|"
+    rf"(?:is|was|are|were|'s|looks|seems)(?: (?:just|simply|plain|clearly|definitely|totally|completely|obviously|quite|all))? (?:wrong|incorrect|mistaken|inaccurate|outdated|out of date|obsolete|rubbish|nonsense|garbage|bogus|(?:not|never) (?:right|correct|true)|an? (?:typo|mistake|misprint|error|slip|old (?:figure|value|number))|not (?:\w+ )?(?:for|right for|suited to) (?:the |this |these |our |my |an? )?{OBJECT})|(?:does|do) not (?:apply|count|fit|suit|belong)|"
     r"made an? (?:\w+ )?(?:mistake|typo|slip|error)|(?:misread|mistyped|misprinted|mis-?wrote|miswritten|misheard|miscopied|misnoted))"
 )
 _WAS_WRONG = re.compile(
@@ -139,7 +142,9 @@ def read_forces(text: str) -> tuple[list[Force], str, str]:
                 .rstrip(" -")
             )
             left, stop = left[:left_cut], stop + right_cut
-            before = _CONDITION.sub("", re.split(r"[.;,]\s|\bbut\b", left)[-1])
+            said_of_last = _WAS_WRONG.search(left) if found else None
+            own = left[said_of_last.end() :] if said_of_last else left
+            before = _CONDITION.sub("", re.split(r"[.;,]\s|\bbut\b", own)[-1])
             after = re.split(
                 r"[.;,]\s?|\b(?:instead of|rather than|because|since)\b", text[stop:], maxsplit=1
             )[0]

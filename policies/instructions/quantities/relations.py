@@ -19,7 +19,7 @@ _BELOW = re.compile(
 )
 _MOST = re.compile(
     r"(?:\b(?:less|lower|smaller) than or equal to|\b(?:at|under|below) or (?:under|below|at)|\b(?:ends|tops out|finish\w*|finishes)(?: \w+){0,3} (?:at|before)|\bstop\w*(?: \w+){0,3} before|(?<!not )(?<!never )\b(?:stop|quit|halt|cease|leave off|cut (?:out|off)|finish|pull up|abort|bail(?: out)?|trip|fault|e-?stop|shut (?:down|off)|give up|let go|back off|alarm)(?:s|p?p?ing|ed)?(?: \w+ing)?(?: (?:it|in|down|up|on it|on this|dead|short|the (?:berry|strawberry|fruit|fingers|jaws|gripper)))? at|"
-    r"\bat (?:the )?(?:very |absolute )?most|\batmost|\b(?:allowed|allowable|permitted|permissible|admissible|tolerable|tolerated)(?: (?:only|just|force|forces|grip|load|value|level|is|are|of))*:?|\b(?:allows?|permits?|tolerates?)(?: us| me| you| only| just)*|\bthe (?:safe|low|lower|soft|gentle|near) side of|\bhard stop(?: at| of| is)?|\bup to|\b(?:as (?:hard|much|high|firm|far) as|no further than)|"
+    r"\bat (?:the )?(?:very |absolute )?most|\batmost|\b(?:allowed|allowable|permitted|permissible|admissible|tolerable|tolerated)(?: (?:only|just|force|forces|grip|load|value|level|is|are|of))*:?|\b(?:allows?|permits?|tolerates?)(?: us| me| you| only| just)*|\bthe (?:safe|right|low|lower|soft|gentle|near) side of|\bhard stop(?: at| of| is)?|\bup to|\b(?:as (?:hard|much|high|firm|far) as|no further than)|"
     r"\bmax(?:imum|imal(?:ly)?|ed)?\.?(?: \w+){0,3}?(?: of| is| at| to|:| =|=)?|"
     r"\blimit(?:s|ed|ing)?(?: (?!not\b|never\b)\w+){0,3}?(?: to| of| at| is|:| =|=)?|"
     r"(?<!bottle )(?<!screw )(?<!jar )(?<!pen )(?<!tube )(?<!vial )\bcap(?:s|ped|ping)?(?: \w+){0,3}?(?: at| to| of| is|:| =|=)?|\bceiling(?: of| is| at|:| =|=)?|"
@@ -77,12 +77,19 @@ _LEAST_AFTER = re.compile(
     r"(?:(?:is|was|were|would be|are|will be|will|proved|turned out) )?(?:(?:to be )?not (?:do|enough)|(?:just |way |far )?too (?:little|light|soft|low|weak))|"
     rf"(?:it|they|the \w+) (?:still |just |already )?{_SLIPS}\b)" + _OTHERS
 )
+_NO_VERB = r"\b(?:not|never)(?: (?:ever|please|just|even|go|get|be|rise|climb|push|press|squeeze|let|take|force|it|any))*"
+_END = r"(?=\s*(?:$|[.;,!)]))"
+_NO_FURTHER = rf"{_NO_VERB} (?:exceed|over|above|beyond|past|further|higher|harder){_END}"
+"""'1 N is plenty, do not go beyond'."""
+_NO_LESS = rf"{_NO_VERB} (?:below|under|beneath|lower){_END}"
 _MOST_SOMEWHERE = re.compile(
+    rf"{_NO_FURTHER}|"
     r"\b(?:cut ?-?offs?|saturate at|clip(?:ped)? at|(?:not|never)(?: \w+){0,4} reach(?:es)?|before it reaches|back off at|the most (?:i|you|we|it|that)|upper (?:\w+ )?(?:bound|limit|end)|ceiling|red line|draw the line|top of (?:what|the|its)|bounded above|"
     r"maximum|(?:not|without|never|avoid)(?: to)?(?: be(?:ing)?)? (?:exceed|surpass)\w*|(?:not|never|nor)\b.{0,30}\b(?:pass|past|exceed|over|above|beyond|surpass|cross) (?:it|that|this)\b|"
     r"(?:remain|stay|keep|stop|be)\w* (?:it )?(?:just |well |safely )?(?:below|under|short of|beneath) (?:it|that|this)\b|as (?:a|the|an) (?:ceiling|cap|maximum|upper))"
 )
 _LEAST_SOMEWHERE = re.compile(
+    rf"{_NO_LESS}|"
     r"\b(?:the least (?:i|you|we|it|that)|lower (?:\w+ )?(?:bound|limit|end)|minimum|"
     r"(?:not|never|nor)\b.{0,30}\b(?:below|under|beneath|short of|less than|lower than) (?:it|that|this)\b|"
     r"(?:remain|stay|keep|be)\w* (?:it )?(?:just |well |safely )?(?:above|over) (?:it|that|this)\b|as (?:a|the) (?:floor|minimum|lower))"
@@ -99,6 +106,11 @@ _ONLY_IF = re.compile(
     r"\s*,?\s*(?:(?:but )?only )?(?:if|when|where|as|unless) (?:really |absolutely |strictly )?(?:needed|necessary|required|need be|you must|you have to|(?:it|the \w+) (?:slips|slides|needs|moves|(?:starts?|begins?) (?:to )?(?:slip|slid|mov|fall|drop)\w*)|unavoidable)\b|"
     r"\s*,? (?:only )?in case (?:it (?:slips|slides|moves|starts)|of (?:an? )?(?:slip|need|emergency))"
 )
+_IF_SLIPS = re.compile(
+    r"\b(?:if|when(?:ever)?|should|in case|once) (?:it|the \w+) (?:(?:still|ever|really|then|should) )?(?:slips?|slides?|wobbles?|moves?|falls?|(?:starts?|begins?) (?:to )?(?:slip|slid|wobbl|mov|fall)\w*)"
+    r"(?: (?:out|away|again|at all|a bit|a little))?(?:, ?| then |:| (?=(?:please|you can|use|take|try|hold|grip|grasp|squeeze|apply|go|set|make|switch|\d)\b))(?:(?!\b(?:least|min\w*|more|above|over|less|under|below|not|never)\b)[^.;#\d])*$"
+)
+"""'If it slips, use 1 N': the most that is ever used."""
 _RISES = re.compile(
     r"\b(?:go|get|rise|raise|increase|up|ramp|climb|bring|turn|crank|squeeze|more)\b[^.;,]{0,25}\bto(?: (?:about|around|roughly))?\s*$"
 )
@@ -192,11 +204,20 @@ _SLIPPING = re.compile(
     rf"(?:^|[,;:]|\b(?:it|berry|fruit|one|this|thing|they|and|or|but|these|berries)) ?{_SLIPS}(?: \w+){{0,3}} (?:under|below|at|with|with less than)\s*$"
 )
 _TOO_MUCH = re.compile(
-    rf"[^.;#]{{0,30}}\b(?:(?<!not )(?<!never )too (?:much|far|hard)|out of|no go|not ok\w*|pointless|useless|no (?:use|sense|point|need|good)|wast\w+|{_UNWANTED}|(?:not|never) (?:be )?(?:needed|necessary|required|called for|wise|good|wanted|used)|{_HARMS})"
+    rf"[^.;#]{{0,30}}\b(?:(?<!not )(?<!never )too (?:much|far|hard)|out of|no go|not ok\w*|pointless|useless|no (?:use|sense|point|need|good)|wast\w+|{_UNWANTED}|(?:not|never) (?:be )?(?:needed|necessary|required|called for|wise|good|wanted|used)|jam\b|juice\b|{_HARMS})"
 )
 _TOO_LITTLE = re.compile(
     rf"[^.;#]{{0,20}}\b(?:will not do|not (?:allowed|acceptable|permitted|ok\w*|on)|forbidden|banned|not (?:enough|sufficient)|too little|insufficient|useless|will not hold|no good|not acceptable|{_SLIPS}|let it|(?:gets?|is|becomes?|feels) (?:loose|shaky|unstable|slippery))"
 )
+
+
+_ANY_MORE = re.compile(
+    r"\s*[.,;:!–—-]*\s*(?:(?:and|but) )?(?:(?:any(?:thing)?|even|just|an?|slightly|bit|little|touch|tad|hair|one|much) )+"
+    r"(?:(?P<more>more|harder|higher|firmer|tighter|stronger|above|beyond|over)|less|softer|lower|looser|gentler|under|below)\b(?: than (?:that|this|it)\b)?"
+)
+"""'1 N, any more would crush it', '0.8 N, anything less lets it slip'."""
+_NO_FURTHER_AFTER = re.compile(rf"\s*[.;,!]+ (?:(?:and|but|so) )?(?:do )?{_NO_FURTHER}")
+"""'1 N. And do not go over.'"""
 
 
 def _end_of_conditional_most(left: str, right: str) -> int | None:
@@ -211,6 +232,8 @@ def _end_of_conditional_most(left: str, right: str) -> int | None:
         stop = _STOP_ONCE.search(left[: once.start()]) if once else None
         if stop and not _NOT_STOPPED.search(left[: stop.start()]):
             return cut  # 'stop as soon as it reads 1 N'
+    if _IF_SLIPS.search(left):
+        return 0
     conditional = _CONDITION.search(re.split(r"[.;]\s", left)[-1])
     return 0 if (conditional and _RISES.search(left)) or _ONLY_IF.match(right) else None
 
@@ -227,8 +250,12 @@ def relation(left: str, right: str) -> tuple[Kind, int, int]:
         return "value", len(left), 0
     if exact := _EXACT_AFTER.match(right):
         return "value", len(left), exact.end()
-    if match := _LIMIT_AFTER.match(right):
+    if match := _LIMIT_AFTER.match(right) or _NO_FURTHER_AFTER.match(right):
         return "most", len(left), match.end()
+    if match := _ANY_MORE.match(right):
+        is_wrong = (_TOO_MUCH if match["more"] else _TOO_LITTLE).match(right, match.end())
+        if is_wrong:
+            return ("most" if match["more"] else "least"), len(left), match.end()
     if _FROM.search(left) and _DOWN.match(right):
         return "most", len(left), 0
     if match := _LOWERED.search(left):
