@@ -93,6 +93,8 @@ _TOO_FOR = re.compile(
     r"(?<!grip)(?<!hold)(?<!force)(?<!squeeze)(?<!pressure)(?<!that)(?<!this)(?P<is> (?:is|are|looks|seems|feels|was|be) (?:\w+ )?|^|(?<=[,;:] ))too (?P<what>\w+) (?:for|to)\b(?P<rest>[^,;]*)"
 )
 """'Too delicate to grip hard': it is delicate, and not to be gripped hard."""
+_NOT_YOU = re.compile(r"\b(can|could|will|would|should) not (?=you|we)\b")
+"""'Can't you hold it gently?' denies nothing."""
 _RATHER = re.compile(
     r"\b(?:rather|better|sooner|prefer\w*)\b(?: \w+)*? (?:too )?(?!little\b|much\b)(\w+) than (?:too |be |being )?(?!usual|normal|before|last|that|this|it\b|standard|the\b|you)\w+"
 )
@@ -113,7 +115,7 @@ _AS_BEFORE = re.compile(
 """After 'as hard': as the task has it."""
 
 _CORRECTED = re.compile(
-    rf"\b(?:no,? wait|wait,? no|{words.any_of('correction')}|(?:oh|hmm+|ah),? no)\b[ ,:.…!-]*"
+    rf"\b(?:no,? wait|wait,? no|{words.any_of('correction')}|(?:oh|hmm+|ah),? no|(?<=[,.;!] )sorry(?=[,:.]))\b[ ,:.…!-]*"
 )
 _AS_USUAL = re.compile(
     r"\b(?:normal(?:ly)?|usual(?:ly)?|ordinary|ordinarily|regular(?:ly)?|medium|default|standard)\b|\b(?:as|like) (?:always|ever)\b|\balways do\b"
@@ -196,7 +198,7 @@ def without_neutral(text: str) -> str:
 def _cues(sentence: str, asks: bool) -> Iterator[Cue]:
     if asks and re.match(r"^(?:and )?(?:i said|did i say|who said|you said)\b", sentence):
         return
-    sentence = without_neutral(sentence)
+    sentence = _NOT_YOU.sub(r"\1 ", without_neutral(sentence))
     sentence = _JUST_ENOUGH.sub(r"just enough\2", _MILDLY.sub(r"\1", sentence))
     sentence = _NEVER_TOO.sub(r"\1 ", sentence)
     sentence = _RATHER.sub(r" \1 ", sentence)

@@ -35,7 +35,7 @@ _LEAD = (
 _FILLER = (
     r"(?:even|ever|again|is|there|here|grippers?|a single|a(?= (?:finger|hand)\b)|single|fingers?|hands?|part|you|your|think|about|of|try|to|dare|may|should|shall|must|can|will|are|allow|allowed|permit|permitted|authori[sz]ed|supposed|meant|"
     r"start|just|please|now|be|being|go|attempt|any|under|circumstances?|means|cases?|times?|way|events?|accounts?|conditions?|moment|point|price|permission|"
-    r"want|like|me|it|yet|need|have|necessary|going|robots?|the|anyone|anybody|everyone|all|for|from|on|against|let|strictly|absolutely|"
+    r"want|wants|ask(?:s|ed)?|told|tells?|expects?|needs|would|like|me|it|yet|need|have|necessary|going|robots?|the|anyone|anybody|everyone|all|for|from|on|against|let|strictly|absolutely|"
     r"(?:ok(?:ay)?|wise|safe|desirable|desired|wanted|required|advised|advisable|acceptable|right|a good idea|reason)(?= (?:to|for)\b))"
 )
 _VERB = (

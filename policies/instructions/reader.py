@@ -43,6 +43,10 @@ MAX_CHARACTERS = 1000
 """Longest instruction. Our choice: longer ones are pasted by mistake, and take seconds to read."""
 
 _QUESTION, _REQUEST = (re.compile(words.any_of(name)) for name in ("question", "request"))
+_MUST_BE = re.compile(
+    r"^(?:so |and |but )*(?:(?:it|that|this|they|the \w+(?: \w+)?) )?(?:must|should|shall|needs?(?: to)?|has(?: got)?(?: to)?|have(?: to)?|ought(?: to)?|supposed to) be (?:\w+ )?#"
+)
+"""'Must be 2 N?' asks for no action, in spite of its verb."""
 _ENGLISH, _FOREIGN = words.word_list("english"), words.word_list("foreign")
 _OFF = re.compile(rf"\b{words.any_of('off_domain')}\b")
 _HOLD = re.compile(rf"\b{words.any_of('hold')}\b")
@@ -60,8 +64,11 @@ _VERB_OBJECT = re.compile(
 )
 _KEEP = re.compile(r"\b(?:not|never)(?: \w+){0,2} (?:let|releas\w*|drop|los\w*|stop)\b")
 _TURN = re.compile(
-    r";|,? (?:so|but|and) (?:today|now|this time|please|hold|use|try|take|make|set|apply|grip|squeeze|press|we hold|we use)\b|\btoday\b|\bthis time\b"
+    r";|,? (?:so|but|and) (?:today|now|this time|please|use|try|make|set|let us|(?:just |you can )?go (?:ahead|on)|we hold|we use|here|then)\b|,? (?:so|but|and) (?:just )?"
+    + words.any_of("hold")
+    + r"\b|\btoday\b|\bthis time\b"
 )
+"""Where a report ends and a request begins."""
 _REPORT = re.compile(
     r"^(?:yesterday|last (?:week|time|night|year)|earlier|once|the other (?:robot|day)|another robot|my colleague|he|she|they|i|we|someone)\b"
     r"(?: (?!would|want|need|like)\w+){0,4} (?:held|picked|was|were|did|used|took|grabbed|gripped|squeezed|lifted|had)\b"
@@ -280,4 +287,6 @@ def _is_question(sentence: str, asks: bool) -> bool:
     """Whether a sentence asks for knowledge, not for an action."""
     if _REQUEST.match(sentence):
         return False
+    if asks and _MUST_BE.match(sentence):
+        return True
     return bool(_QUESTION.match(sentence)) and (asks or not re.search(r"[,;:]", sentence))

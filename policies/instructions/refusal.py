@@ -21,15 +21,24 @@ _MODAL = re.compile(
 _ASKS = re.compile(
     r"\b(?:can|could|will|would|want|need|would like|order|tell|ask|command) you(?: to| please| just)*\s*$"
 )
-_OBJECT = r"(?: (?:it|this|that|the|them|these|those|him|her|my|a|an|some|every\w*|all|your|our|berry|strawberry|fruit|like|flat|down|up|apart|in|into|to)\b|(?=[.!,;]*$)| and\b| or\b)"
+_OBJECT = r"(?: (?:it|its|this|that|the|them|these|those|him|her|my|a|an|some|every\w*|all|your|our|berry|strawberry|fruit|like|flat|down|up|apart|in|into|to)\b|(?=[.!,;]*$)| and\b| or\b)"
 _DESTROY_VERB = re.compile(rf"\b{words.any_of('destroy')}(?:n?ing|t?ing|p?ing)?\b{_OBJECT}")
 _A_BIT = re.compile(
     r"squish (?:it|this|that|the \w+) (?:(?:just|only|like|maybe|ever so) )*(?:(?:an? )?(?:\w+ )?(?:bit|little|touch|tad|smidge\w*)\b(?! (?:flat|more|harder))|gently|softly|lightly|slightly|carefully)"
 )
+_DESTROY_IT = r"(?:crush|squash|smash|mash|burst|bruise|destroy|flatten|pulp|mangle|wreck|ruin|split|puncture|pierce|break|crack) (?:it|this|that|them|the (?:\w+ )?\w+)"
 _DESTROY_WITH = re.compile(
     r"(?:(?:please|now|just|robot|then|and|so|ok(?:ay)?|go ahead and|i (?:want|need|order|would like) you to|(?:can|could|will|would) you) )*"
-    r"(?P<order>(?:crush|squash|smash|mash|burst|bruise|destroy|flatten|pulp|mangle|wreck|ruin|split|puncture|pierce|break|crack) (?:it|this|that|them|the (?:\w+ )?\w+)(?: flat| up| completely)?) (?:with|at|using|by applying) "
+    rf"(?P<order>{_DESTROY_IT}(?: flat| up| completely)?) (?:with|at|using|by applying) "
 )
+_THEN_DESTROY = re.compile(
+    rf"(?P<first>(?:[^.;!?]|\.(?=\d))*?)(?: |, ?)(?:(?:and )?then|and(?: please| now)?) (?P<order>{_DESTROY_IT})(?=\s*(?:$|[.,;!?]|(?:flat|up|completely|please|now)\b))"
+)
+"""'Hold it with 1 N and then crush it'."""
+_WARNS = re.compile(
+    r"\b(?:more|over|above|beyond|past|exceed\w*|harder|not|never|if|when|than|too)\b"
+)
+"""'Press harder and crush it' warns of it."""
 _THREAT = re.compile(
     r"\b(?:and|or) (?:you|i|we|it|they|the|my)\b|\b(?:fired|angry|cross|trouble|sorry|regret|pay)\b"
 )
@@ -214,6 +223,10 @@ def _destroys_with(whole: str) -> str:
         order = _DESTROY_WITH.match(clause)
         if order and not _THREAT.search(whole):
             return order["order"]
+    for sentence, _ in sentences(whole):
+        then = _THEN_DESTROY.match(sentence)
+        if then and _ORDER.match(then["first"]) and not _WARNS.search(then["first"]):
+            return then["order"]
     return ""
 
 

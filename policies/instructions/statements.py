@@ -187,7 +187,7 @@ def condition_of(text: str) -> str:
             before = sentence[: found.start()].strip(" ,;:-–—")
             clause = _CLAUSE.split(before)[-1]
             what = sentence[found.start() :].split(",")[0]
-            if _FORCE.search(what) or what.startswith("as soon as") or _SUPPOSED.search(before):
+            if _FORCE.search(what) or _ANY_TIME.match(what) or _SUPPOSED.search(before):
                 continue
             if _LEAD.fullmatch(before) or _requests(clause):
                 return what
@@ -301,6 +301,8 @@ _LEAD = re.compile(
     r"(?:(?:and|but|so|then|only|please|now|ok|okay|well|robot|hey|hi|hello|today|even)[ ,]*)*"
 )
 """What may stand before a condition with which a sentence begins."""
+_ANY_TIME = re.compile(r"as soon as (?!(?:i|we)\b)")
+"""A condition of time, which is not seen, and no signal of a person."""
 _SUPPOSED = re.compile(
     r"\b(?:it|they|this|that|which|he|she) (?:only |also |even |just )?(?!always)[a-z]{2,}s$|\b(?:what (?:would |will )?happens?|wonder|grateful|glad|happy|lovely|nice|great|appreciate|better|best|like it|love it|pleased|kind|cool|even|as|see|check|tell me|know|care|mind|no matter|never mind|worry|bruises?|breaks?|bursts?|slips?|falls?|or|like|sure)$"
 )
