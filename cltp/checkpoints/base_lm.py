@@ -154,6 +154,7 @@ def move_base(weights: Path, folder: Path) -> BaseLm:
             f"{folder} holds another language model than {weights} was trained behind, which was "
             f"a {stored.model_type} in {stored.path}; name that one"
         )
+    check_manifest(weights / "projector")
     check_partners(weights / "projector")
     moved = replace(stored, path=found.path)
     moved.write(lm)

@@ -206,10 +206,14 @@ class Sampler:
         if self._also_fraction is None:
             return self.batch(self._drawn(batch_size, step, 0, len(self.dataset)), step)
         num_also = self.dataset.num_also
-        num_first, drawn_also = (
-            len(self.dataset) - num_also,
-            round(self._also_fraction * batch_size),
-        )
+        num_first = len(self.dataset) - num_also
+        if batch_size < 2:
+            raise TouchError(
+                "a batch of one contact can't be mixed: choose more than one contact for each "
+                "process, or leave --also-fraction out"
+            )
+        # Neither is left out, however small its fraction.
+        drawn_also = min(max(1, round(self._also_fraction * batch_size)), batch_size - 1)
         first = self._drawn(batch_size - drawn_also, step, 0, num_first)
         also = self._drawn(drawn_also, step, num_first, num_also)
         return self.batch(np.concatenate([first, also]), step)

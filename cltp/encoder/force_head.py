@@ -32,7 +32,8 @@ FARTHEST = 6.0
 """Standard deviations beyond which an input counts as so far, so that nothing is extrapolated."""
 
 _FORCE = NUMBERS.index("force_n")
-_NUM_INPUTS = NUM_FEATURES + 3 * len(NUMBERS) + 1 + len(Side)
+NUM_INPUTS = NUM_FEATURES + 3 * len(NUMBERS) + 1 + len(Side)
+"""Width of ``force_inputs``."""
 
 
 class ReadForce(NamedTuple):
@@ -56,11 +57,11 @@ class ForceHead(nn.Module):
 
     def __init__(self) -> None:
         super().__init__()
-        self.register_buffer("mean", torch.zeros(_NUM_INPUTS))
-        self.register_buffer("spread", torch.ones(_NUM_INPUTS))
+        self.register_buffer("mean", torch.zeros(NUM_INPUTS))
+        self.register_buffer("spread", torch.ones(NUM_INPUTS))
         self.register_buffer("widening", torch.ones(1))
         self.layers = nn.Sequential(
-            nn.Linear(_NUM_INPUTS, HIDDEN),
+            nn.Linear(NUM_INPUTS, HIDDEN),
             nn.GELU(),
             nn.Linear(HIDDEN, HIDDEN),
             nn.GELU(),

@@ -203,8 +203,9 @@ class Talker:
             max_tokens: Bound on the tokens of a reply without a grammar.
             penalties: Penalties of actions out of ``cltp.texts.tokenizer.ACTIONS`` in nats, with a
                 grammar of any of its options, which are taken from their logits: a penalised one
-                must be exp(penalty) times as probable as the one that replaces it. An infinite
-                penalty excludes it.
+                must be exp(penalty) times as probable as the one that replaces it, at the token
+                that tells it from all others: options that begin alike are one until then. An
+                infinite penalty excludes it.
 
         Raises:
             TouchError: Grammar and penalties leave no action.

@@ -219,7 +219,11 @@ def train_heads(
     torch.manual_seed(run.seed)
     heads = StateHeads.of(config).to(device)
     weights = float(sum(p.double().abs().sum() for p in encoder.parameters()))
-    identity = {"data": data.checksum(), "config": config.identity, "variant": str(augmentation)}
+    identity = {
+        "data": data.checksum(),
+        "config": config.identity,
+        "variant": str(augmentation and augmentation.identity),
+    }
     stage = Stage("heads", run, heads, schedule, {**identity, "encoder": weights})
     sampler = Sampler(data, augmentation, seed=run.seed, layout=config.variant.layout)
     batches = prefetched(stage.batches(sampler))

@@ -14,8 +14,8 @@ from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset
 from cltp.data.sampler import NOISY, Augmentation, Sampler
 from cltp.encoder.encoder import TactileEncoder
-from cltp.encoder.force_head import ForceHead, force_inputs
-from cltp.encoder.heads import StateHeads, Targets, targets
+from cltp.encoder.force_head import NUM_INPUTS, ForceHead, force_inputs
+from cltp.encoder.heads import LEAST_CONTACTS, StateHeads, Targets, targets
 from cltp.tactile.measure import contact_state
 from cltp.tactile.point_layout import GRID
 from cltp.tactile.sensors import sensor_named
@@ -138,7 +138,8 @@ def fit_force(
     if len(held_out):
         rows = np.tile(held_out[:CALIBRATION_CONTACTS], CALIBRATION_VIEWS)
         inputs, forces, _ = _force_samples(run, encoder, heads, sampler, rows)
-        head.widen(inputs, forces)
+        if len(inputs) >= LEAST_CONTACTS:  # as ``StateHeads.calibrate``
+            head.widen(inputs, forces)
     heads.force = head
 
 
@@ -150,7 +151,8 @@ def _force_samples(
     rows: NDArray[np.int64],
 ) -> tuple[Tensor, Tensor, NDArray[np.int64]]:
     """Inputs (N, 48) of the force head, transformed forces and rows (N,) of contacts that touch."""
-    inputs, forces, touching = [], [], []
+    inputs, forces = [torch.empty(0, NUM_INPUTS)], [torch.empty(0)]
+    touching = [np.empty(0, np.int64)]
     for step, first in enumerate(range(0, len(rows), BATCH)):
         batch = sampler.batch(rows[first : first + BATCH], step)
         labels = targets(batch.states)

@@ -38,7 +38,12 @@ class CurveFile:
             return
         lines = self._path.read_text(encoding="utf-8").splitlines()
         numbered = [(line.split(",")[0], line) for line in lines[1:]]
-        rows = [line for number, line in numbered if number.isdigit() and int(number) <= step]
+        columns = lines[0].count(",") if lines else 0  # a full disk may have cut a line
+        rows = [
+            line
+            for number, line in numbered
+            if number.isdigit() and int(number) <= step and line.count(",") == columns
+        ]
         self._names = lines[0].split(",")[2:] if lines else None
         write_atomically(self._path, "".join(f"{line}\n" for line in [*lines[:1], *rows]))
 

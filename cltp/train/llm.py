@@ -209,15 +209,21 @@ def train_llm(
         schedules = STAGES if start is None else FINE_TUNING
         if language is not None:
             schedules = {name: s for name, s in schedules.items() if name != "text"}
+    before: list[str] = []  # a stage goes on from what the earlier ones learned
     for number, name in enumerate(STAGES, start=1):
         if name not in schedules:
             continue
         made_of = {key: value for key, value in identity.items() if (name, key) != BEFORE_TOUCH}
+        if before:
+            made_of["before"] = "; ".join(before)
+        before.append(f"{name}: {schedules[name]}")
         model.requires_grad_(False)
         model.projector.requires_grad_(name != "text")
         model.lm.requires_grad_(name != "projector")
         learner.train(Stage(name, run, learned, schedules[name], made_of), number)
-    save_tac3d_llm(run.out, model.cpu().eval())
+    if run.workers.is_first:
+        save_tac3d_llm(run.out, model.cpu().eval())
+    run.workers.wait()
     return run.out
 
 

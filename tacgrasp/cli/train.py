@@ -400,7 +400,12 @@ class TrainQueriesFlags:
         import torch
 
         from tacgrasp.console import make_console
-        from tacgrasp.training.query_classifier import QueryClassifierRequest, train
+        from tacgrasp.training.query_classifier import HELD_OUT, QueryClassifierRequest, train
+
+        if self.questions < 2 * HELD_OUT:
+            raise UsageError(
+                f"--questions must be at least {2 * HELD_OUT}: {HELD_OUT} of them are held out"
+            )
 
         if self.threads is not None:
             torch.set_num_threads(self.threads)

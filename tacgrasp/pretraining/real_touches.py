@@ -161,7 +161,14 @@ def _rows(table: Path) -> Iterator[tuple[int, dict[str, str]]]:
                 raise UsageError(
                     f"{table} needs the columns {', '.join(COLUMNS)}, got {', '.join(names)}"
                 )
-            rows = [{(k or "").strip(): (v or "").strip() for k, v in r.items()} for r in reader]
+            rows = []
+            for number, row in enumerate(reader, start=2):
+                if None in row:
+                    raise UsageError(
+                        f"{table}, row {number}: more than {len(names)} fields; a comma inside a "
+                        "name needs quotes"
+                    )
+                rows.append({name.strip(): (label or "").strip() for name, label in row.items()})
     except (OSError, UnicodeDecodeError, csv.Error) as error:
         raise UsageError(f"labels can't be read from {table}: {error}") from None
     if not rows:

@@ -22,7 +22,7 @@ from cltp.train.calibration import LEAST_FORCE_CONTACTS, calibrate_heads, fit_fo
 from cltp.train.stage import ProgressReport, TrainingRun, silent
 from tacgrasp.base.errors import UsageError
 from tacgrasp.training.requests import RefitRequest
-from tacgrasp.training.upkeep import write_manifests
+from tacgrasp.training.upkeep import check_parts, write_manifests
 
 
 def train_force(request: RefitRequest, command: str, report: ProgressReport = silent) -> None:
@@ -35,8 +35,9 @@ def train_force(request: RefitRequest, command: str, report: ProgressReport = si
 
     Raises:
         UsageError: The encoder takes other points, or the data set is too small.
-        TouchError: Weights or data can't be used.
+        TouchError: Weights, another part beside the encoder too, or data can't be used.
     """
+    check_parts(request.weights)
     folder = request.weights / "encoder"
     encoder, heads = load_encoder(folder)
     heads.force = None
@@ -66,8 +67,9 @@ def train_intervals(request: RefitRequest, command: str, report: ProgressReport 
     Raises:
         UsageError: The encoder has no intervals, or the data set too few contacts that nothing was
             learned from.
-        TouchError: Weights or data can't be used.
+        TouchError: Weights, another part beside the encoder too, or data can't be used.
     """
+    check_parts(request.weights)
     encoder, heads = load_encoder(request.weights / "encoder")
     contacts, run, noise = _begun(request, report)
     held_out = int((contacts.column("split") == Split.VALIDATION.value).sum())

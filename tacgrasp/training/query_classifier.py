@@ -10,9 +10,10 @@ Not here: its use beside the language model (``tacgrasp.lessons.understanding``)
 
 from __future__ import annotations
 
+import hashlib
 import math
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -102,7 +103,12 @@ def train(request: QueryClassifierRequest, console: Console) -> float:
         schedule = Schedule(
             steps=request.steps, batch_size=BATCH, learning_rate=RATE, weight_decay=DECAY
         )
-        identity = {"questions": request.questions, "learned": len(learned), "classes": classes}
+        identity = {
+            "questions": request.questions,
+            "drawn": _digest(f"{text}\t{name}" for text, name in drawn),
+            "learned": len(learned),
+            "classes": classes,
+        }
         stage = Stage("queries", run, model, schedule, identity)
         steps = range(stage.step, request.steps)
         noise = _Noise(learned, numbers)
@@ -123,7 +129,9 @@ def train(request: QueryClassifierRequest, console: Console) -> float:
 
 def _drawn(request: QueryClassifierRequest, console: Console) -> list[tuple[str, str]]:
     """Plain words and class of wordings; those of an earlier start are taken."""
-    path = request.out / ".training" / f"questions-{request.questions}-{request.seed}.tsv"
+    block = _digest(draw_block((request.seed, 0)))  # tells one grammar from another
+    name = f"questions-{request.questions}-{request.seed}-{block}.tsv"
+    path = request.out / ".training" / name
     if not path.exists():
         blocks = [(request.seed, block) for block in range(math.ceil(request.questions / BLOCK))]
         with worker_pool() as pool, count_progress(console) as progress:
@@ -135,6 +143,10 @@ def _drawn(request: QueryClassifierRequest, console: Console) -> list[tuple[str,
         write_atomically(path, "\n".join(lines) + "\n")
     rows = path.read_text(encoding="utf-8").splitlines()
     return [(text, name) for text, _, name in (row.partition("\t") for row in rows)]
+
+
+def _digest(lines: Iterable[str]) -> str:
+    return hashlib.sha256("\n".join(lines).encode()).hexdigest()[:12]
 
 
 def draw_block(place: tuple[int, int]) -> list[str]:

@@ -12,9 +12,20 @@ from rich.console import Console
 from cltp.checkpoints.base_lm import move_base
 from cltp.checkpoints.card import PARTS
 from cltp.checkpoints.layout import renew_layout
-from cltp.checkpoints.manifest import write_manifest
+from cltp.checkpoints.manifest import check_manifest, check_partners, write_manifest
 from cltp.checkpoints.tac3d_llm import size_bytes
 from tacgrasp.base.errors import UsageError
+
+
+def check_parts(weights: Path) -> None:
+    """Refuse a folder of weights of which a part is damaged or of another set.
+
+    Raises:
+        WeightsError: As ``check_manifest`` and ``check_partners``.
+    """
+    for part in _parts(weights):
+        check_manifest(part)
+        check_partners(part)
 
 
 def write_manifests(weights: Path) -> None:
@@ -23,7 +34,7 @@ def write_manifests(weights: Path) -> None:
     Raises:
         UsageError: It has no part, or a manifest can't be written.
     """
-    parts = [weights / name for name in PARTS if (weights / name).is_dir()]
+    parts = _parts(weights)
     if not parts:
         raise UsageError(f"--weights {weights} has none of {', '.join(PARTS)}")
     whole = all((weights / name).is_dir() for name in ("encoder", "lm"))
@@ -33,6 +44,10 @@ def write_manifests(weights: Path) -> None:
             write_manifest(part, trained_with=partners)
     except OSError as error:
         raise UsageError(f"{weights} can't be written: {error.strerror or error}") from None
+
+
+def _parts(weights: Path) -> list[Path]:
+    return [weights / name for name in PARTS if (weights / name).is_dir()]
 
 
 def name_base(weights: Path, folder: Path) -> None:

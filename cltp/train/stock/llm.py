@@ -107,7 +107,7 @@ def train_stock_llm(
         "encoder": manifest_digest(run.out / "encoder"),
         "base": base.fingerprint,
         "recipe": {k: v for k, v in asdict(recipe).items() if k not in schedules},
-        "variant": str(augmentation),
+        "variant": str(augmentation and augmentation.identity),
     }
     for number, (name, schedule) in enumerate(recipe.stages.items(), start=1):
         learned = _learned(model, tuned if name == "joint" else [])

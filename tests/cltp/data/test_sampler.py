@@ -183,6 +183,17 @@ def test_a_fraction_of_each_batch_comes_from_the_further_set(mixed):
     assert sorted(also[:4]) == sorted(also[4:8]) == [30, 31, 32, 33]  # two of one's own
 
 
+@pytest.mark.parametrize(("fraction", "size", "also"), [(0.02, 16, 1), (0.1, 4, 1), (0.98, 16, 15)])
+def test_neither_set_is_left_out_however_small_its_fraction(mixed, fraction, size, also):
+    batch = Sampler(mixed, CLEAN, also_fraction=fraction).numbered(size, 0)
+    assert int((batch.index >= 30).sum()) == also
+
+
+def test_a_batch_of_one_contact_is_not_mixed(mixed):
+    with pytest.raises(TouchError, match="a batch of one contact can't be mixed"):
+        Sampler(mixed, CLEAN, also_fraction=0.5).numbered(1, 0)
+
+
 def test_a_step_draws_the_same_contacts_whatever_was_drawn_before(mixed):
     sampler = Sampler(mixed, CLEAN, seed=3, also_fraction=0.25)
     later = sampler.numbered(8, 40).index

@@ -1,20 +1,26 @@
 """What is set after a training: which encoders and data sets get a force head."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import torch
 
+from cltp.checkpoints.manifest import WeightsError, check_manifest, write_manifest
+from cltp.checkpoints.tac3d_llm import load_encoder, save_encoder
 from cltp.data.contact import Split
+from cltp.data.dataset_writer import DatasetWriter
 from cltp.data.sampler import CLEAN
 from cltp.encoder import force_head
 from cltp.encoder.encoder import PRESETS, TactileEncoder
 from cltp.encoder.force_head import ForceHead
 from cltp.encoder.heads import StateHeads
+from cltp.tactile.states import NO_CONTACT_STATE
 from cltp.train import calibration
 from cltp.train.calibration import even_weights, fit_force
 from cltp.train.stage import TrainingRun
 from tacgrasp.__main__ import main
-from tests.fakes.fake_contacts import write_contacts
+from tests.fakes.fake_contacts import fake_contact, write_contacts
 
 
 @pytest.fixture(scope="module")
@@ -78,6 +84,22 @@ def test_with_fewer_it_stays_but_for_its_intervals(run, brief, monkeypatch):
     assert float(start.widening) != 1.0
 
 
+@pytest.mark.parametrize("held_out", [0, 2])
+def test_its_intervals_are_not_set_by_a_handful_of_contacts(brief, tmp_path, held_out):
+    write_contacts(tmp_path, {Split.TRAIN: range(80), Split.VALIDATION: range(80, 80 + held_out)})
+    if not held_out:  # contacts there are, but none that touch
+        lost = replace(
+            fake_contact(99, split=Split.VALIDATION),
+            state=NO_CONTACT_STATE,
+            height_mm=np.zeros((76, 102), np.float32),
+        )
+        with DatasetWriter(tmp_path) as writer:
+            writer.add(lost)
+    encoder, heads = random_model("tiny_grid")
+    fit_force(TrainingRun(data=tmp_path, out=tmp_path), encoder, heads, CLEAN)
+    assert float(heads.force.widening) == 1.0
+
+
 def test_the_same_seed_fits_the_same_force_head(run, brief):
     states = []
     for other in range(2):
@@ -108,8 +130,6 @@ def test_intervals_are_learned_with_the_weights_of_the_gels(run, brief, monkeypa
 
 
 def test_weights_of_other_points_are_refused_by_name(run, tmp_path, capsys):
-    from cltp.checkpoints.tac3d_llm import save_encoder
-
     save_encoder(tmp_path / "encoder", *random_model("tiny"))
     assert main(["train", "force", "--weights", str(tmp_path), "--data", str(run.data)]) == 2
     message = capsys.readouterr().err
@@ -117,8 +137,6 @@ def test_weights_of_other_points_are_refused_by_name(run, tmp_path, capsys):
 
 
 def test_intervals_are_set_anew_and_nothing_else(run, brief, tmp_path):
-    from cltp.checkpoints.tac3d_llm import load_encoder, save_encoder
-
     encoder, heads = random_model("tiny_grid")
     fit_force(run, encoder, heads, CLEAN)
     save_encoder(tmp_path / "encoder", encoder, heads)
@@ -133,9 +151,22 @@ def test_intervals_are_set_anew_and_nothing_else(run, brief, tmp_path):
         torch.testing.assert_close(again.state_dict()[name], value, rtol=0, atol=0)
 
 
-def test_intervals_need_contacts_that_nothing_was_learned_from(tmp_path, capsys):
-    from cltp.checkpoints.tac3d_llm import save_encoder
+@pytest.mark.parametrize("stage", ["intervals", "force"])
+def test_a_damaged_part_beside_the_encoder_is_not_signed_anew(run, brief, tmp_path, capsys, stage):
+    save_encoder(tmp_path / "encoder", *random_model("tiny_grid"))
+    for name in ("lm", "projector"):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "model.safetensors").write_bytes(b"weights")
+    write_manifest(tmp_path / "lm")
+    write_manifest(tmp_path / "projector", trained_with=("encoder", "lm"))
+    (tmp_path / "lm" / "model.safetensors").write_bytes(b"weighty")
+    assert main(["train", stage, "--weights", str(tmp_path), "--data", str(run.data)]) == 2
+    assert "lm/model.safetensors is damaged" in capsys.readouterr().err
+    with pytest.raises(WeightsError):
+        check_manifest(tmp_path / "lm")
 
+
+def test_intervals_need_contacts_that_nothing_was_learned_from(tmp_path, capsys):
     save_encoder(tmp_path / "encoder", *random_model("tiny_grid"))
     write_contacts(tmp_path / "data", {Split.TRAIN: range(40)})
     command = ["train", "intervals", "--weights", str(tmp_path), "--data", str(tmp_path / "data")]

@@ -39,6 +39,7 @@ from cltp.evaluation.features import encode_batches, random_batches
 from cltp.evaluation.geometric_baseline import predict_geometrically
 from cltp.evaluation.probes import predict_with_heads
 from cltp.evaluation.scores import best_classes, score_classes
+from cltp.evaluation.splits import LEARNING_NOISE
 from cltp.evaluation.zero_shot import ClassPrompts
 from cltp.llm.generation import Talker
 from cltp.tactile.cloud import cloud_from_heights
@@ -50,7 +51,7 @@ from cltp.texts.captions import caption
 from cltp.texts.exchange_packing import Exchange
 from cltp.texts.tokenizer import Words
 from cltp.texts.told import ToldContact
-from cltp.train.alignment import train_cltp
+from cltp.train.alignment import train_cltp, train_heads
 from cltp.train.clip import train_clip
 from cltp.train.llm import train_llm, train_words
 from cltp.train.recipes import Schedule
@@ -298,6 +299,18 @@ def test_a_stem_sees_the_pressure_only_where_it_is_asked_to() -> None:
     points = torch.from_numpy(encoder_input(cloud, layout)[None])
     with torch.no_grad():
         assert TactileEncoder(both).eval()(points).pooled.shape == (1, both.pooled_dim)
+
+
+def test_heads_that_learned_under_other_noise_are_not_taken_up(tmp_path: Path) -> None:
+    write_contacts(tmp_path / "data", {Split.TRAIN: range(8)})
+    encoder = TactileEncoder(PRESETS["tiny"])
+    run = TrainingRun(data=tmp_path / "data", out=tmp_path / "out")
+    schedule = Schedule(steps=2, batch_size=4, learning_rate=1e-3)
+    train_heads(run, encoder, schedule, LEARNING_NOISE)
+    for part in ("windows", "loose", "coarse"):
+        other = replace(LEARNING_NOISE, **{part: 0.9})
+        with pytest.raises(TouchError, match="delete it to start afresh"):
+            train_heads(run, encoder, schedule, other)
 
 
 def test_numbers_survive_their_transformation() -> None:

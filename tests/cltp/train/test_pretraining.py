@@ -287,7 +287,7 @@ def test_rows_after_the_checkpoint_are_dropped(tmp_path: Path) -> None:
         curve.add(step, 0.1, {"loss": float(step), "temperature": 0.07})
     curve.flush()
     with path.open("a") as file:
-        file.write("6,0.1,")  # a row that was cut off
+        file.write("6,0.1,\n2\n")  # rows that a full disk cut off, and what followed
     curve = CurveFile(path, 3)
     curve.add(4, 0.1, {"loss": 40.0, "temperature": 0.07})
     curve.flush()

@@ -233,6 +233,7 @@ def test_real_touches_are_named_from_a_table(
     for row, expected in (
         ("0.npy,blob", "row 2: no shape 'blob'"),
         ("9.npy,", "9.npy does not exist"),
+        ("0.npy,sphere,", "row 2: more than 6 fields; a comma"),
     ):
         real_touches(folder, f"{row},,,,\n")
         assert expected in complaint(flags, capsys)
