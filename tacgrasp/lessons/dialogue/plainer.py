@@ -46,6 +46,8 @@ _CONTRACTED = (
     (re.compile(r"\b(we|they|you)['’]re\b", re.I), r"\1 are"),
     (re.compile(r"\b(i|we|they|you)['’]ve\b", re.I), r"\1 have"),
     (re.compile(r"\bi['’]m\b", re.I), "I am"),
+    (re.compile(r"\b(i|we|they|you|it|that|this|there)['’]ll\b", re.I), r"\1 will"),
+    (re.compile(r"\b(we|they|you|it|that|this|there)['’]d\b", re.I), r"\1 would"),
 )
 _STATED = re.compile(
     rf"(?P<subject>(?:[\w'’-]+ ){{1,7}}?)(?P<verb>{AUXILIARY}) (?P<rest>.+)", re.I | re.S
