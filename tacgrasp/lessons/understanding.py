@@ -67,6 +67,7 @@ from tacgrasp.lessons.dialogue.query import (
 from tacgrasp.lessons.dialogue.rules.advised import advised, step_asked
 from tacgrasp.lessons.dialogue.rules.elsewhere import of_elsewhere
 from tacgrasp.lessons.dialogue.rules.friction import frictional
+from tacgrasp.lessons.dialogue.rules.gripper import of_gripper, of_outcome
 from tacgrasp.lessons.dialogue.rules.members import member_of, verdict_of
 from tacgrasp.lessons.dialogue.rules.regions import of_region
 from tacgrasp.lessons.dialogue.rules.reported import reported
@@ -199,6 +200,8 @@ def understood_by_grammar(question: str, before: str = "") -> ReadQuestion | Non
     if not before and isinstance(meaning, Unknowable):
         # 'is it a square' is no question for a name, 'is it in the corner' for its surroundings
         meaning = ruled_whole(plain) or of_region(question) or meaning
+    if not before and meaning is None:
+        meaning = of_gripper(question)
     if not before and meaning is None and _EITHER.search(question):
         meaning = ruled_whole(question)  # plainer text has no 'either'
     in_usual = with_counted_parts(question, as_usual=True)
@@ -272,7 +275,7 @@ def _by_other_words(question: str, before: str) -> ReadQuestion | None:
         return told_alone
     if choice := loosely_named(question):
         return ReadQuestion(query_of(choice), choice, CALCULATED_CONFIDENCE)
-    if (meaning := unfelt(question)) is None:
+    if (meaning := unfelt(question) or of_outcome(question)) is None:
         return None
     return ReadQuestion(query_of(meaning), meaning, CALCULATED_CONFIDENCE)
 

@@ -29,11 +29,14 @@ SUBJECTS: Mapping[str, str] = {
     "past": "what happened to it before",
     "future": "what will be",
     "elsewhere": "what another finger touches",
+    "finger": "which finger this is",
+    "opening": "how far the gripper is open",
+    "outcome": "what would come of that",
     "law": "what the rules say about it",
     "friction": "its friction",
     "trait": "that",
 }
 """What touch can't know, as answers name it."""
 
-RULED_SUBJECTS = ("future", "elsewhere")
+RULED_SUBJECTS = ("future", "elsewhere", "finger", "opening", "outcome")
 """Those that rules alone read, and no model names (``tacgrasp.lessons.dialogue.rules``)."""
