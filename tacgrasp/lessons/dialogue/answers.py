@@ -65,14 +65,19 @@ _COMPARED = re.compile(
 _SUPPOSED_N = re.compile(
     r"(?P<force>\(?force_n [+-] [\d.]+\)?|[\d.]+ \* force_n|\(1 [+-] [\d.]+ / 100\) \* force_n|"
     r"\([^<>=]*\bforce_n\b[^<>=]*[+*-] [\d.]+\)|\([\d.]+ \* force_n\)) (?:<=|>=|<|>) (?P<with>.+)|"
-    r"band_low_n <= (?P<within>[^<>]*\bforce_n\b[^<>]*[^<>\s\w][^<>]*) <= band_high_n"
+    r"band_low_n <= (?P<within>(?!force_n <)[^<>]*\bforce_n\b[^<>]*) <= band_high_n"
 )
 """A force that a question supposes, and what it is compared with."""
 
 _SUPPOSED_G = re.compile(
-    r"(?:(?P<force>force_n)|[\d.]+) (?:<|>=) (?P<needed>gram_n \* (?P<mass>.*\bmass_g\b.*))"
+    r"(?:(?P<force>force_n)|[\d.]+) (?:<|>=) "
+    r"(?P<needed>(?:gram_n|0\.0205) \* (?P<mass>.*\bmass_g\b.*|[\d. *]+))"
 )
 """The force that a supposed mass needs, or that the given one needs: '2 >= gram_n * mass_g'."""
+
+_DENIED = re.compile(r"not \((.+)\)")
+_NEEDED_N = re.compile(r"(?:gram_n|0\.0205) \* (?:mass_g|[\d. *]+)$")
+"""The force that a mass needs, which another force is compared with."""
 
 _TESTED = re.compile(r"(?P<name>\w+) .*\d (?P<unit>\S+)")
 """A quantity that a check compares with a number: 'force > 100 g'."""
@@ -202,6 +207,8 @@ def _calculated(asked: Calculated, scene: AskedScene) -> Answer:
         return Answer(text=f"{text}.", kind=kind, value=number_in(text), unit=asked.unit)
     is_of_band = any(test in asked.truth for test in _BAND_TESTS)
     shown = [FACT_OF[name] for name in names_of(asked) if name in FACT_OF]
+    if kind is AnswerKind.CHOICE:  # 'central' says as much as 'it is centered'
+        shown = [name for name in shown if name != "position"]
     if is_of_band and (kind is AnswerKind.CHOICE or asked.truth in _BAND_TESTS):
         shown = ["force_band"]
     compared = _compared(asked.truth, scene)
@@ -209,9 +216,12 @@ def _calculated(asked: Calculated, scene: AskedScene) -> Answer:
     if names_of(asked) == ("action",):
         clauses = [f"the advice is to {ACTIONS[str(scene.values()['action'])]}"]
     if supposed := _SUPPOSED_N.fullmatch(asked.truth):
+        if needed_n := _NEEDED_N.search(asked.truth):
+            needed = float(Expression(needed_n[0]).evaluate(scene.values()).value or 0.0)
+            clauses = [f"it needs {needed:.2f} N"]
         clauses = _supposed_clauses(supposed["force"] or supposed["within"], clauses, scene)
-    loaded = _SUPPOSED_G.fullmatch(asked.truth)
-    if loaded and (loaded["mass"] != "mass_g" or not loaded["force"]):
+    denied = _DENIED.fullmatch(asked.truth)
+    if loaded := _SUPPOSED_G.fullmatch(denied[1] if denied else asked.truth):
         needed = float(Expression(loaded["needed"]).evaluate(scene.values()).value or 0.0)
         needs = "needs" if loaded["mass"] == "mass_g" else "would need"
         felt = f" and {fact('force', scene)[1]}" if loaded["force"] else ""
@@ -322,7 +332,8 @@ def _in_part(asked: Several, scene: AskedScene, lacking: Answer) -> Answer:
 def _why(asked: Why, scene: AskedScene) -> Answer:
     values = scene.values()
     clauses = [fact(name, scene)[1] for name in asked.shows]
-    clause = " and ".join(clauses) or REASONS[str(values["reason"])]
+    *first, last = clauses or [REASONS[str(values["reason"])]]
+    clause = f"{', '.join(first)} and {last}" if first else last
     if asked.with_action:
         text = f"{capital(ACTIONS[str(values['action'])])}: {clause}."
     else:

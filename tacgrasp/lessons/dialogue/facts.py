@@ -67,6 +67,9 @@ FACT_OF: Mapping[str, str] = {
     "force_band": "force_band",
     "shape": "shape",
     "texture": "texture",
+    "depth": "depth_word",
+    "area": "area_word",
+    "position": "position",
     "area_percent": "area",
     **{f"cut_{side}": "cut_sides" for side in Side},
 }

@@ -30,6 +30,8 @@ SPELLED: Mapping[str, str] = {
 _BEHIND_NUMBER = re.compile(
     "#(?: (?:" + "|".join(f"({spelled})" for spelled in SPELLED) + r")(?![^ ]))?"
 )
+_NUMBER_OF_THINGS = re.compile(r"#(?P<things> (?:of (?:these|those|them)|such|identical)\b)?")
+"""'Two of these', 'three such parts', which are no mass."""
 _GIVEN_UNIT = re.compile(r"#(\d)(?: (?:\+-|-) #(\d))? ([^\s.;]+)")
 _FOREIGN: Mapping[str, tuple[str, ...]] = {
     r"m|met(?:re|er)s?": ("m",),
@@ -112,9 +114,11 @@ def numbers_in_units(query: str, words: str, numbers: Sequence[float]) -> tuple[
         numbers: Its numbers.
 
     Returns:
-        All numbers; None where a number has a unit of something else, or one of two units.
+        All numbers; None where a number has a unit of something else, or one of two units, or
+        where a count of things is taken for a mass.
     """
     written = _written(words)
+    are_things = [bool(match["things"]) for match in _NUMBER_OF_THINGS.finditer(words)]
     if len(written) != len(numbers):  # the question has a '#' of its own
         return tuple(numbers)
     scaled = list(numbers)
@@ -123,6 +127,9 @@ def numbers_in_units(query: str, words: str, numbers: Sequence[float]) -> tuple[
         for match in _GIVEN_UNIT.finditer(part):
             *named, unit = match.groups()
             places = [int(place) - 1 for place in named if place]
+            is_of_things = any(are_things[at] for at in places if at < len(are_things))
+            if is_of_things and unit in UNITS and UNITS[unit].dimension == "mass":
+                return None
             has = {at: written[at] for at in places if at < len(written) and written[at]}
             if unit not in UNITS or not has:
                 continue

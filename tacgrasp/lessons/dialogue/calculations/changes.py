@@ -222,7 +222,12 @@ _HEAVIER = re.compile(
 )
 """'The part were twice as heavy', 'at double the mass', '50 % heavier'."""
 
-_SEVERAL = re.compile(r"holding (?P<n>#\d+) of (?:these|them|those)")
+_SEVERAL = re.compile(
+    r"(?:(?:(?:i|we|you|it) )?(?:hold(?:ing)?|held|lift(?:ing|ed)?|carr(?:y|ied|ying)|had|have|"
+    r"gripped)|there (?:were|was|are|is)) (?P<n>#\d+) (?:of (?:these|them|those)|(?:such|"
+    r"identical|equal) [a-z]{3,}s)(?: at once| together)?"
+)
+"""'Holding two of these', 'there were three such parts'."""
 _SECOND = re.compile(
     rf"(?:an?|#1|one|another|one more|the same)? ?(?:second|further|other|identical|equal|more|"
     rf"such)?"

@@ -16,7 +16,7 @@ from __future__ import annotations
 import re
 
 from tacgrasp.lessons.dialogue.calculations.asked import AskedWords, usual
-from tacgrasp.lessons.dialogue.calculations.phrases import is_made_of
+from tacgrasp.lessons.dialogue.calculations.phrases import PARTS, is_made_of
 from tacgrasp.lessons.dialogue.calculations.quantity_names import THING, UNIT, unit_of
 from tacgrasp.lessons.dialogue.calculations.terms import PLAIN, Term, in_newtons
 from tacgrasp.lessons.dialogue.meaning import Calculated
@@ -70,6 +70,11 @@ _TOLD_MASS = re.compile(
     rf"for (?:the |this |that |our )?{THING}|(?:that )?(?:i|we|you|it) (?:\w+ ){{0,2}}\w+|"
     rf"(?:as )?(?:stated|told|given|known|recorded)))*"
 )
+_HOLDING_IT = re.compile(
+    rf"(?:for|to {_HOLD})(?: up)? (?:it|this|that|(?:the|this|that|our) {THING})"
+    r"(?: (?:safely|surely|up|securely))*$"
+)
+"""'How much force is missing to hold it?'"""
 _INTO = (
     r"(?:(?:right|exactly|just|only) )?(?:at|with|by|using|under|"
     r"for|given|from|of|up to|right up to|all the way (?:up )?to|to)"
@@ -98,7 +103,10 @@ _PER_NEWTON = re.compile(
     r"\b(?:per|for (?:each|every)|each|every) (?:single )?(?:newton|n)\b(?: of (?:grip|force|"
     r"squeeze))?"
 )
-_SHORT = re.compile(r"\b(?:short|shy|lack|lacking|missing|shortfall)\b")
+_SHARE_OF = re.compile(rf"\b(?:what|which) {PARTS} of ")
+_SHORT = re.compile(
+    r"\b(?:short|shy|lack|lacking|missing|shortfall|too (?:weak|little|loose|low|light|feeble))\b"
+)
 _FACTOR = re.compile(
     r"(?:factor of safety|safety factor|holding factor|safety ratio|margin of safety as a factor|"
     r"how many times (?:over|as much as needed|its weight|(?:(?:the|what is) )?"
@@ -150,6 +158,8 @@ def as_many_as(asked: AskedWords) -> Term | None:
 def load(asked: AskedWords) -> Term | None:
     """The load that a force surely holds: the felt one, or one that the question names."""
     words = _EXPLAINED.sub("", asked.words)
+    if _SHARE_OF.search(words):
+        return None
     if asked.unit in ("g", "kg", "g/N", "kg/N") and (each := _PER_NEWTON.search(f"{words} ")):
         rest = f"{words[: each.start()]} {words[each.end() :]}"
         if _is_load(f"how much {rest}"):
@@ -288,7 +298,7 @@ def _holds_it(asked: AskedWords, mass: Term) -> Calculated | None:
 
 
 _STAYS = re.compile(
-    rf"(?:would|will|does|do|can|could|is|are) (?:we |it |this |that |{THING} |the )+"
+    rf"(?:would|will|does|do|can|could|is|are) (?:we |it |they |this |that |{THING} |the )+"
     r"(?:(?:still|then|now|be|surely|safely|able to) )*(?:(?P<slips>slip|slide|fall|drop|slips|"
     r"slipping|dropped|lost)|(?:hold|held|stay|stick|remain|hold it|stay put))"
     r"(?: (?:it|up|out|away|down|off|then|now|still|in place|put))*"
@@ -393,7 +403,7 @@ def _is_needed(rest: str) -> bool:
     """Whether words ask for the force that is needed."""
     used = (
         rf"(?:{_FILL}|{_SURE}|{_HOLD}|{_LOAD}|{_FORCE}|{_NEEDED}|more|extra|additional|further|"
-        r"short|shy|lack|lacking|missing|shortfall|far)"
+        r"short|shy|lack|lacking|missing|shortfall|far|too|weak|little|loose|low|light|feeble)"
     )
     is_needed = _SHORT.search(rest) or re.search(rf"\b(?:{_NEEDED}|to {_HOLD}|for)\b", rest)
     return bool(is_needed) and not _DENIED.search(rest) and is_made_of(rest, used)
@@ -406,7 +416,8 @@ def _is_filled(rest: str) -> bool:
 
 
 _DENIED = re.compile(
-    r"\b(?:not (?!(?:to )?(?:slip|drop|fail))|too|more than|less than|spare|left|over|under)\b"
+    r"\b(?:not (?!(?:to )?(?:slip|drop|fail))|too (?!weak|little|loose|low|light|feeble)|more than|"
+    r"less than|spare|left|over|under)\b"
 )
 
 
@@ -433,7 +444,10 @@ def _with_term(
 
 
 def _told_mass(words: str) -> list[tuple[Term, str]]:
-    """The mass that somebody told, where a question names it as that."""
-    if (found := _TOLD_MASS.search(words)) is None:
+    """The mass that somebody told, where a question names it as that, or what is too little."""
+    found = _TOLD_MASS.search(words)
+    if found is None and _SHORT.search(words):
+        found = _HOLDING_IT.search(words)
+    if found is None:
         return []
     return [(usual("mass"), f"{words[: found.start()]} {words[found.end() :]}")]

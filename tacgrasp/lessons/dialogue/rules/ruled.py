@@ -14,6 +14,7 @@ from tacgrasp.lessons.dialogue.rules.halves import half_query
 from tacgrasp.lessons.dialogue.rules.loads import load_query
 from tacgrasp.lessons.dialogue.rules.offsets import offset_query
 from tacgrasp.lessons.dialogue.rules.others import other_query
+from tacgrasp.lessons.dialogue.rules.several_held import several_query
 from tacgrasp.lessons.dialogue.rules.worded import worded_query
 from tacgrasp.lessons.dialogue.written_units import numbers_in_units
 
@@ -51,6 +52,8 @@ def ruled(question: str) -> Meaning | None:
         force, unit = next((safe[n], safe[f"{n}u"]) for n in "abc" if safe[n])
         newtons = float(force) / (1000 if unit.lower().startswith("m") else 1)
         return read_query(f"calculate band_low_n <= {newtons:g} <= band_high_n.")
+    if several := several_query(question):
+        return read_query(several)
     asked = asked_text(question)
     plain = " ".join(plain_words(question))  # 'half of the pad' is no percentage here
     query = (
