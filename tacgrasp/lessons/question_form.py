@@ -85,7 +85,7 @@ _CALLED_FALSE = re.compile(
     rf"(?:to {_HOLDS}|in {_HOLDS}|(?:when|if|where) (?:i|we|you|one) {_HOLDS})"
     r"(?: (?!nothing\b|something\b|anything\b)(?:them|him|her|you|people|(?:the |my |our )\w+))?"
     r"(?: that)?|(?:is|was|would) it (?:be )?(?:(?:false|"
-    r"untrue|wrong|incorrect|inaccurate|mistaken)|"
+    r"(?:impossible|out of the question)(?= that\b)|untrue|wrong|incorrect|inaccurate|mistaken)|"
     r"not (?:true|correct|right|the case|so)|an? (?:mistake|error|lie))"
     r"(?: to (?:say|write|claim|state|assume|think|note|record|put down|report))?(?: that)?) "
     r"(?P<stated>.+)",
@@ -205,6 +205,13 @@ def alone_asked(question: str) -> str:
 
 
 _ASIDE = re.compile(r"\s*\((?!s\))[^()\d]*\)|,? if (?:any|at all)(?=[?.! ]*$)", re.I)
+_FILLER = re.compile(
+    r"(?:^|(?<=\w),|(?<=\.\.\.)) ?(?:um+|uh+|er+m?|like|you know|i mean|sort of|kind of|let['’]s "
+    r"say)"
+    r"(?:,|\.\.\.)(?= )",
+    re.I,
+)
+"""'So, um, is it, you know, deep?'"""
 _REPLY_FIRST = re.compile(
     r"^(?:yes or no|short answer|quick (?:one|question))"
     r"(?:,? (?:nothing else|no more|only|please|nothing more|just that))*[:,.–—-]+ +",
@@ -242,7 +249,7 @@ def without_aside(question: str) -> str:
 
     'How far is it from the lower end (the fingertip)?', 'Yes or no, nothing else: is it deep?'
     """
-    return _REPLY_FIRST.sub("", _ASIDE.sub("", question))
+    return _REPLY_FIRST.sub("", _ASIDE.sub("", _FILLER.sub("", question)))
 
 
 def denied_statement(question: str) -> str:

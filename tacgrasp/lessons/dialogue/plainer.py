@@ -257,6 +257,15 @@ _TERSE = re.compile(
 )
 """'1500 mN over limit?', which asks whether it is."""
 
+_AND_STAY = re.compile(
+    r"^(?P<asks>how (?:much|far|many)\b[^,;?]*?),? (?:and|while|but|yet) (?:still )?(?:be|being|"
+    r"stay|"
+    r"staying|remain|remaining|keep|keeping)(?: still)? (?:in|inside|within|below|under|"
+    r"beneath) (?=(?:the |our |my )?(?:\w+ )?(?:(?P<band>band|range|window)|limit|cap|ceiling)\b)",
+    re.I,
+)
+"""'How much can I add and still be in the band?', which asks how much before leaving it."""
+
 _MAXIMUM = re.compile(r"\b(?:(?:the|our|my) )?max(?:imum)?\b", re.I)
 
 _NUMBER = r"(?<![\d.,])(\d+(?:\.\d+)?)"
@@ -386,6 +395,9 @@ def plainer(question: str) -> str:
     text = _PURPOSE.sub("", _POLITE.sub("give me ", _THANKS.sub("", text), count=1))
     if terse := _TERSE.fullmatch(text):
         text = _MAXIMUM.sub("the limit", f"{'does' if terse['exceeds'] else 'is'} {text}")
+    text = _AND_STAY.sub(
+        lambda stay: f"{stay['asks']} before {'leaving' if stay['band'] else 'we reach'} ", text
+    )
     if tag := _TAG.search(text):
         text = _asked(text, tag)
     if " or " in text:

@@ -602,6 +602,23 @@ _READ = {
         "check depth < #1 µm; check depth > #2 µm."
     ),
     "Is it deeper than 300 microns but less than 500?": "check depth #1 - #2 µm.",
+    "How much force could I add at most and still be in the band?": (
+        "calculate band_high_n - force_n in N."
+    ),
+    "How far may we tighten, yet remain below the cap?": "calculate limit_n - force_n in N.",
+    "How much would be missing to 2 N?": "calculate 2 - force_n in N.",
+    "By what factor is the force short of the limit?": "calculate limit_n / force_n in 1.",
+    "By which factor does the limit surpass our grip?": "calculate limit_n / force_n in 1.",
+    "What part of the limit does the force take?": "calculate 100 * force_n / limit_n in %.",
+    "It'll slip at 50 g, won't it?": "check slips #1 g.",
+    "Is it impossible that the surface is rough?": "check not texture rough.",
+    "Is it out of the question that the force is above 2 N?": "check not force > #1 N.",
+    "So, um, is it, you know, safe to lift?": "check force within.",
+    "How deep is it, like, in microns?": "amount depth µm.",
+    "Is it in one of the corners?": (
+        "calculate position in ('top-left', 'top-right', 'bottom-left', 'bottom-right')."
+    ),
+    "Is the little thing fragile?": "unknown trait.",
 }
 
 
@@ -623,6 +640,11 @@ def test_a_question_is_read_as_it_is_meant(question, query):
         ("Would 0.4 N hold it?", "No, it needs 0.51 N."),
         ("Is the area about 20 mm²?", "No, the contact area is 37 mm²."),
         ("Is the pressure about 22 kPa?", "Yes, the mean pressure is 22.4 kPa."),
+        ("If it weighed 50 g, would it slip?", "Yes, it needs 1.03 N and the force is 0.83 N."),
+        ("Will two 30 g nuts fall?", "Yes, it would need 1.23 N and the force is 0.83 N."),
+        ("Is it impossible that it slips?", "Yes, it needs 0.51 N and the force is 0.83 N."),
+        ("Would twice the force hold 50 g?", "Yes, the force would be 1.66 N, it needs 1.03 N."),
+        ("Is it near a corner?", "No, it is centered."),
     ],
 )
 def test_what_is_compared_is_told(question, text):

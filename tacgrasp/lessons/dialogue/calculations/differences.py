@@ -24,7 +24,8 @@ _GET = (
     r",? (?:and )?(?:give|tell|show|state|say|report|let (?:me|us)|hand)(?: .+)?)?"
 )
 _MISSING = re.compile(
-    r"how much(?: more| further)?(?: (?:is|are|do we|does it|would it))?(?: still)? "
+    r"how much(?: more| further)?(?: (?:is|are|do we|does it|would it|would|will))?(?: "
+    r"still)?(?: be)? "
     r"(?:missing|lacking|left|needed|lack|to go|remain(?:s|ing)?) "
     r"(?:until|till|to|before|up to|for|from) (?:(?P<a>.+?) "
     r"(?:reaches|reach|gets? to|hits?|is at|touches|arrives at|measures?d?|was|were at) "
@@ -143,7 +144,7 @@ _LEAVING = re.compile(
     r"take|let)|add|squeeze|increased?|raised?|rise|grow|tighten(?:ed)?|press|grip|push|go|put|"
     r"gain)"
     r"(?: (?:off|up|on|back|away|harder|more|less|further|down|out|the (?:force|grip|squeeze)|"
-    r"force))* "
+    r"force|at (?:the )?(?:very )?most))* "
     r"(?:before|until|till|without) (?:(?:i|we|you|it|the (?:force|grip)) )?(?:am |are |is |"
     r"being )?"
     r"(?:leav(?:e|es|ing)|exceed(?:s|ing)?|overshoot(?:s|ing)?|outside(?: of)?|beyond|"

@@ -20,7 +20,7 @@ from tacgrasp.lessons.dialogue.calculations.terms import PLAIN, Term
 from tacgrasp.lessons.dialogue.quantities import UNITS
 
 _TAIL = (
-    r"(?: (?:amount|come|correspond|add up|be equal|equal) to| makes?(?: up)?| takes? up|"
+    r"(?: (?:amount|come|correspond|add up|be equal|equal) to| makes?(?: up)?| takes?(?: up)?|"
     r" represents?|(?: be)? at| uses?(?: up)?| be| equals?| account for| cover|"
     r"(?: be)? (?:reached|used(?: up)?|attained|got(?: up)? to|come to|gone through|covered))?"
 )
@@ -86,6 +86,8 @@ _RATIOS = tuple(
         r"reach|hit|get (?:up |right )?to|be(?: exactly)? at|meet|equal|touch|come to|"
         r"land (?:exactly )?on)|"
         r"before (?:it )?(?:reach(?:es|ing)?|hit(?:s|ting)?|(?:gets|getting) to)) (?P<a>.+)",
+        rf"by (?:what|which) factor (?:is|are|am) (?P<b>.+?) (?:{BELOW}) (?P<a>.+)",
+        rf"by (?:what|which) factor (?:is|are|am|does|do) (?P<a>.+?) (?:{ABOVE}) (?P<b>.+)",
         r"by (?:what|which) (?:factor|number) (?:would|must|should|do|could|can) (?:i|we|you) "
         r"(?:have to )?(?:multiply|scale|raise) (?P<b>.+) to "
         r"(?:land (?:exactly )?on|get(?: to)?|reach|be "

@@ -149,7 +149,8 @@ _UNKNOWN: Mapping[str, str] = {
     "trait": (
         r"\b(?:pulse|heart ?beat|alive|dead|asleep|sick|ill|unwell|in pain|hurting|scared|afraid|"
         r"happy|hungry|pregnant|ticklish|(?:boy or (?:a )?girl|male or female|he or (?:a )?she|"
-        r"girl or (?:a )?boy)|tired|healthy|broken inside|out of order|work(?:s|ing)? (?:properly|"
+        r"girl or (?:a )?boy)|tired|healthy|fragile|delicate|brittle|breakable|defective|broken|"
+        r"out of order|work(?:s|ing)? (?:properly|"
         r"still)|still works?|waterproof|dishwasher|washable|clean|dirty|dusty|wet|damp|soaked|"
         r"sticky|greasy|beautiful|pretty|ugly|cute|popular)\b"
     ),

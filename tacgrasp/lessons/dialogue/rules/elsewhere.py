@@ -50,12 +50,29 @@ _BEFORE = re.compile(
 )
 _AFTER = re.compile(
     rf"\b(?:{_SPAN} (?:from now|from today|later|hence)|(?:in|within|after) (?:another )?{_SPAN}|"
-    rf"tomorrow|tonight|next (?:{_UNITS_OF_TIME}|time|{_WEEKDAY})|later (?:today|on|this "
+    rf"tomorrow|tonight|later$|next (?:{_UNITS_OF_TIME}|time|{_WEEKDAY})|later (?:today|on|this "
     rf"{_UNITS_OF_TIME})|in (?:the )?future|some day|by (?:then|tonight|the evening|{_WEEKDAY})|"
     r"(?:the )?next (?:grip|grasp|pick|touch|object|item|part|piece|one))\b"
 )
 _IN_PAST = re.compile(r"\b(?:was|were|did|had|has|have|been|used to)\b|\bago\b")
 _IN_FUTURE = re.compile(r"\b(?:will|shall|going to|gonna)\b|['’]ll\b")
+_HOW_LONG = re.compile(
+    r"(?:(?:and|but|so|then) )*how (?:long|soon|much longer|many (?:seconds|minutes|"
+    r"hours))\b.*\b(?:"
+    r"until|till|before|will|would|can|does)\b.*\b(?:slip|fall|drop|break|burst|hold|stay|last)s?\b"
+)
+"""'How long until it slips?'"""
+_PAD_ITSELF = re.compile(
+    r"(?:(?:and|but|so) )*(?:is|are|was|has|looks?) (?:the|your|this) (?:gel|pad|sensor|camera|"
+    r"skin|"
+    r"rubber)(?: (?:still|very|too|already|a bit|got|been|become))* (?:worn(?: out)?|dirty|clean|"
+    r"scratched|torn|damaged|broken|new|old|dusty|cracked|defective|dried out)[?.! ]*|"
+    r"(?:is|are) there (?:(?:any|a|an|some) )?(?:\w+ )?(?:hairs?|dust|dirt|grease|oil|crumbs?|"
+    r"fluff|"
+    r"moisture|scratch(?:es)?|tears?) (?:on|in|under) (?:the|your) (?:gel|pad|sensor|camera|"
+    r"skin)\b.*"
+)
+"""'Is the gel worn?', which the touch does not tell."""
 _CLAUSES = re.compile(r"[.,;:!?–—]+(?!\d)|\s-\s")
 _ASKING = re.compile(
     r"(?:(?:and|but|so|now|or|then|also|tell me|roughly) )*(?:by how|to what|with what|at what|"
@@ -114,6 +131,10 @@ def _subject(words: str) -> str:
         return "past"
     if is_off_topic(words):
         return ""
+    if _HOW_LONG.match(words):
+        return "future"
+    if _PAD_ITSELF.fullmatch(words):
+        return "trait"
     if _MORE_CONTACTS.search(words):
         return "surroundings"
     if _OTHER_FINGER.search(words) and not _OF_BOTH.search(words):

@@ -22,7 +22,7 @@ _FINGER = r"(?:(?:gripper |robot )?(?:finger|fingertip|jaw|arm)|gripper|sensor)"
 _NO_SIDE = r"(?![- ](?:side|edge|end|border|rim|half|part|force|of)\b)"
 _ONE = r"(?:left|right|other|first|second|upper|lower)(?:[- ]hand)?"
 _WHICH_FINGER = re.compile(
-    rf"\b(?:which|what)(?: one)?(?: of (?:the|your|our)(?: two)?)? {_FINGER}s?"
+    r"\b(?:which|what)(?: one)?(?: of (?:the|your|our)(?: two)?)? (?:finger|fingertip|jaw|arm)s?"
     r"(?=$| (?:is|are|am|do|does|did|has|have|was|it|i|we|you|touches|feels|holds|presses)\b)|"
     rf"\b{_ONE} {_FINGER}{_NO_SIDE},? or (?:[a-z]+ ){{0,3}}?{_ONE}\b{_NO_SIDE}|"
     rf"\b{_ONE}(?: one)?,? or (?:[a-z]+ ){{0,3}}?{_ONE} {_FINGER}\b{_NO_SIDE}"

@@ -15,6 +15,8 @@ from __future__ import annotations
 
 import re
 
+from tacgrasp.lessons.dialogue.calculations.quantity_names import THING
+
 _TOWARD = {
     "left": ("x", "<", "-"), "right": ("x", ">", ""), "tip": ("y", "<", "-"),
     "fingertip": ("y", "<", "-"), "palm": ("y", ">", ""),
@@ -108,6 +110,15 @@ _IN_CORNER = re.compile(
     r"(?:zones?|regions?|cells?|areas?)(?: .*)?| of (?:the |your |its )?(?:pad|gel|sensor|grid|"
     r"sensing area)(?: .*)?)"
 )
+_IN_ONE_CORNER = re.compile(
+    r"(?:is|was|does|do|are) (?:it|this|that|the \w+|we|something|anything)(?: \w+){0,2}? "
+    r"(?:in|at|near|into) (?:(?:one|any|#) of (?:the |its )?(?:# |four )?|an? |any |the )corners?"
+)
+_SIZE_OF = re.compile(
+    r"(?:what is |how (?:large|big|long) is )?(?:the )?(?:radius|diameter|width|height|length|"
+    r"thickness|volume|circumference|size) of (?:the|this|that|your|my) (?:whole |entire )?"
+    rf"(?:{THING}|ball|sphere|cube|cylinder|rod|ring|disc|disk|tube|screw|bolt|nut)(?: in \w+)?"
+)
 _CORNERS = "('top-left', 'top-right', 'bottom-left', 'bottom-right')"
 _LEFT_BY = re.compile(r"(?:who|which \w+|whose \w+) left (?:it|this|that|the \w+)\b")
 _HARDER_OR_SOFTER = re.compile(
@@ -126,7 +137,7 @@ def other_query(words: str) -> str:
         _LENGTHWISE.search(words)
     ):
         return "word side_x." if _SIDEWAYS.search(words) else "word side_y."
-    if _EXTENT.fullmatch(words):
+    if _EXTENT.fullmatch(words) or _SIZE_OF.fullmatch(words):
         return "unknown size."
     if _BREAKS_AT.fullmatch(words) or _HARDNESS.fullmatch(words):
         return "unknown trait."
@@ -140,7 +151,8 @@ def other_query(words: str) -> str:
         return "unknown past."
     if _LEFT_BY.match(words):
         return "unknown owner."
-    if _IN_CORNER.fullmatch(words) and " or " not in words:
+    in_corner = _IN_CORNER.fullmatch(words) or _IN_ONE_CORNER.fullmatch(words)
+    if in_corner and " or " not in words:
         return f"calculate position in {_CORNERS}."
     if _GRID.match(words) or _WHICH_PART.fullmatch(words):
         return "word position."

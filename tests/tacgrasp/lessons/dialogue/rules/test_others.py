@@ -21,6 +21,8 @@ from tacgrasp.lessons.dialogue.rules.unread import is_beyond
         ("What's the tangential load?", "unknown trait."),
         ("How many dots are there?", "unknown trait."),
         ("How wide is the contact in mm?", "unknown size."),
+        ("What's the radius of the ball?", "unknown size."),
+        ("Thickness of that part in mm?", "unknown size."),
         ("Are you sure about the shape?", "why shape."),
         ("Should I squeeze it more or less?", "choice action."),
     ],
@@ -33,6 +35,9 @@ def test_a_class_of_questions_has_its_query(question, query):
     "question",
     [
         "How wide is the band?",
+        "What is the width of the band?",
+        "What is the size of the contact?",
+        "Is it a corner?",
         "Is the force increased enough for the band?",
         "Is it more than 2 mm deep?",
         "Which side is it on?",
