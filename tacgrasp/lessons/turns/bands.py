@@ -79,8 +79,11 @@ def about_the_band(question: str, meant: Meaning | None) -> Iterator[str]:
     own = re.sub(r"\bthe new one\b", "the band", own)
     if nearer := _NEARER.fullmatch(own):
         yield f"Is the force nearer to the {nearer['a']} or the {nearer['b']} end of the band?"
-    yield own
-    yield HOW_FAR_FROM.sub("how far is the force from ", own)
-    yield _ARE_WE.sub("Is the force", own)
+    texts = (
+        own,
+        HOW_FAR_FROM.sub("how far is the force from ", own),
+        _ARE_WE.sub("Is the force", own),
+    )
+    yield from (text for text in texts if text != without_lead(question))
     if _IN.search(question):
         yield _IN.sub("in the band", without_lead(question))

@@ -46,6 +46,8 @@ _OF_QUANTITY = re.compile(
     rf"{_QUANTITY.replace('<of>', '<d>')} lie(?: between)?{_END}",
     re.I,
 )
+_OF_STATED = re.compile(rf"{_LEAD}how {_SURE} (?:are you|is it) that (?P<stated>.+?){_END}", re.I)
+"""'How sure are you that it is a sphere?'"""
 _OF_LAST = re.compile(
     rf"{_LEAD}(?:(?:can|should|shall|may) (?:i|we) (?:trust|rely on|believe) (?:{_IT}|"
     rf"(?:this|that|the) (?:number|figure|reading|value))|"
@@ -64,4 +66,6 @@ def doubted_by(question: str) -> str:
     question = question.strip()
     if found := _OF_QUANTITY.fullmatch(question):
         return _NAMES[next(filter(None, found.groupdict().values())).lower()]
+    if found := _OF_STATED.fullmatch(question):
+        return f"Is it true that {found['stated']}?"
     return LAST if _OF_LAST.fullmatch(question) else ""

@@ -25,6 +25,7 @@ from tacgrasp.lessons.dialogue.meaning import (
     Calculated,
     Check,
     Meaning,
+    Several,
     Which,
     Why,
     truth_of,
@@ -43,13 +44,16 @@ _BY_HOW_MUCH = re.compile(
     r"(?:are|is) (?:we|it|that|they|the two))?(?: (?:off|away|short|over|apart))?|how (?:much|far|"
     r"large|big) is the (?:difference|gap|margin)|(?:how (?:much|far|many \w+)|what) (?:lies?|is|"
     r"are|separates?)(?: there)? (?:in )?between (?:the two|them|these(?: two)?|those(?: two)?|"
-    r"both)|by how (?:much|many \w+) do (?:we|i) differ(?: from it)?"
+    r"both)|what(?:['’]s| is) (?:still )?(?:missing|lacking)|"
+    r"by how (?:much|many \w+) do (?:we|i) differ(?: from it)?"
     r")(?: (?:is (?:it|that)|exactly|precisely|roughly|"
     r"about))*(?: from (?:the )?(?:middle|cent(?:er|re)|midline|it))?(?P<floor>[ ,(–-]+(?:zero|0|"
     r"nothing) (?:if|when|for) .+)?[?.! )]*",
     re.I,
 )
 _COMPARED = re.compile(r"(?:not \()?(?P<a>[^<>='\"]+?) [<>]=? (?P<b>[^<>='\"]+?)\)?")
+_SHARE = re.compile(r"(?:[\d.]+ \* )?\(?100 \* ")
+"""A side that is a percentage: '0.5 * (100 * force_n / limit_n)'."""
 _CALLED_SO = ("depth", "force", "area", "mass", "limit")
 """Quantities that a pronoun may stand for: questions call them by these names."""
 _PRONOUN = re.compile(r"\b(?:it|that|this)\b", re.I)
@@ -113,6 +117,8 @@ def difference_of(asked: Meaning, question: str) -> Calculated | None:
     except ValueError:  # it has several comparisons
         return None
     units = {unit_of_name(name) for name in names}
+    if _SHARE.match(found["a"]):
+        units = {"%"}
     if f"{HOLDING_N_PER_G} * mass_g" in truth or "gram_n" in truth:
         units = {"N"}  # a mass there stands for the force that surely holds it
     return Calculated(truth=truth, unit=units.pop()) if len(units) == 1 else None
@@ -150,6 +156,9 @@ def in_another_unit(question: str, asked: Meaning) -> Meaning | None:
     """
     found = _IN_UNIT.fullmatch(without_lead(question))
     symbol = unit_symbol(found["unit"]) if found else ""
+    is_length = bool(symbol) and UNITS[symbol].dimension == "length"
+    if is_length and isinstance(asked, Which) and asked.name == "position":
+        return Several(parts=tuple(Amount(quantity=axis, unit=symbol) for axis in "xy"))
     asked = _measured(asked)
     if not symbol or not isinstance(asked, Amount | Calculated) or not asked.unit:
         return None

@@ -64,9 +64,17 @@ _THAT_QUANTITY = re.compile(r"\b(?:that|this) (?P<what>force|depth|area|mass|lim
 _FIGURE = re.compile(
     r"(?:what(?:['’]s| is) (?:the |its )?(?:(?:real|actual|exact|true|precise) )?(?:figure|number|"
     r"value|reading)|how (?:much|deep|strong|big) is it|(?:the )?exact (?:figure|number|"
-    r"value))(?: then| really| exactly| in fact)*[?.! ]*",
+    r"value)|(?:more )?(?:exactly|precisely)|(?:as|in) (?:a )?(?:numbers?|figures?))"
+    r"(?: then| really| exactly| in fact| please)*[?.! ]*",
     re.I,
 )
+_FIGURES_OF = {
+    "position": "What are x and y in mm?",
+    "depth": "What is the depth as a number?",
+    "area": "What is the area as a number?",
+}
+"""Questions for the numbers behind a word."""
+
 _ENOUGH = re.compile(
     r"(?P<verb>\b(?:is|would)\b) (?:it|that|this) (?:be )?(?:strong |firm )?enough"
     r"(?= to (?:surely |safely )?(?:hold|lift|carry))",
@@ -100,6 +108,8 @@ def of_that_quantity(question: str, meant: Meaning | None) -> str:
 def figure_of(question: str, meant: Meaning | None) -> str:
     """The number behind a yes or a no: 'what is the real figure?'."""
     is_asked = _FIGURE.fullmatch(without_lead(question)) or _FIGURE.fullmatch(question)
+    if is_asked and isinstance(meant, Which):
+        return _FIGURES_OF.get(meant.name, "")
     if not is_asked or not isinstance(meant, Check | Calculated):
         return ""
     names = names_of(meant)
@@ -148,7 +158,8 @@ def in_a_word(question: str, meant: Meaning | None) -> str:
 
 
 _FREE = re.compile(
-    rf"{LEAD}(?:how (?:much|many \S+)(?: of (?:it|the pad))? (?:is|are|stays?|remains?|lies?) )?"
+    rf"{LEAD}(?:what(?:['’]s| is) )?"
+    r"(?:how (?:much|many \S+)(?: of (?:it|the pad))? (?:is|are|stays?|remains?|lies?) )?"
     r"(?:the )?(?:uncovered|not covered|free|bare|untouched|empty|not touched|unoccupied|rest)"
     rf"(?: (?:part|area|one))?{END}",
     re.I,

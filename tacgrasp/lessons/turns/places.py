@@ -47,6 +47,11 @@ _HOW_MANY_SIDES = re.compile(
     rf"(?:[, ]+(?:altogether|in all|in total|overall))?{END}",
     re.I,
 )
+_ANY_SIDE = re.compile(
+    rf"{LEAD}(?:(?:at|on|over|by|of) )?any(?: (?:other|one))?(?: of the)? "
+    rf"(?:sides?|edges?|rims?|borders?)(?: at all)?{END}",
+    re.I,
+)
 _ON_SIDES = re.compile(
     r"(?:on|over|at|off|across) (?:more than one|several|two|both|opposite|at least|only|just) .+",
     re.I,
@@ -104,6 +109,8 @@ def about_place(question: str, meant: Meaning | None) -> Iterator[str]:
         told = next((side for side in _OPPOSITE if condition.endswith(f"cut_{side}")), "")
         if told:
             yield f"Is it cut on the {_OPPOSITE[told]} side?"
+    if is_cut and _ANY_SIDE.fullmatch(question):
+        yield "Does it run off the pad anywhere?"
     if is_cut and _WHICH_EDGE.fullmatch(question):
         yield "Which edge cuts it?"
     if is_cut and _ON_SIDES.match(without_lead(question)):

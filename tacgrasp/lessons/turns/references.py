@@ -104,8 +104,11 @@ _FELT_FORCE = re.compile(
 _COMPARES = re.compile(
     r"(?:more|less|over|under|above|below|at least|at most|exactly|about|deeper|shallower|higher|"
     r"lower|heavier|lighter|bigger|smaller|stronger|weaker|larger)(?: than)? (?=\d|\.\d|the |our |"
-    r"half |twice )|than (?=\d|\.\d)"
+    r"half |twice )|than (?=\d|\.\d)|(?:in )?between (?=\d|\.\d)"
 )
+_UP_TO = re.compile(r"(?<=between )(?P<low>\d*\.?\d+) and (?P<high>\d*\.?\d+ ?(?P<unit>[a-zµ%²]+))")
+"""'Between 0.4 and 0.5 mm', whose first number has the unit too."""
+
 _HAVE_IT = re.compile(
     r"(?:do|are|have) (?:i|we|you)(?: (?:have|apply|press with|reach|reached|got|make|there|at))*"
     r"(?: (?:that|it|this|as)(?: much| many)?)?(?: (?:force|grip|newtons))?"
@@ -136,6 +139,12 @@ _OF_ITS_OWN = re.compile(
 """'What force is it?' asks for what it names, whatever was asked before."""
 
 
+def is_multiple(question: str) -> bool:
+    """Whether a follow-up asks for nothing but a multiple or a share: 'half of that?'."""
+    core = in_words(without_lead(question)).lower().strip(" ?.!")
+    return _MULTIPLE.fullmatch(_IN_UNIT.sub("", core)) is not None
+
+
 def of_number(question: str, about: Meaning | None, earlier: Meaning | None) -> Calculated | None:
     """What a follow-up asks of the number before it; None where it asks for something else.
 
@@ -163,6 +172,7 @@ def of_number(question: str, about: Meaning | None, earlier: Meaning | None) -> 
         return Calculated(truth=f"abs(force_n - {term.factor})", unit=unit)
     if distance:
         core = f"how far is it from {distance['what']}"
+    core = _UP_TO.sub(r"\g<low> \g<unit> and \g<high>", core)
     if _COMPARES.match(core):
         core = f"is it {'' if not core.startswith('than') else 'more '}{core}"
     if is_bound and _HAVE_IT.fullmatch(core):

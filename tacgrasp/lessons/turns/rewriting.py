@@ -16,10 +16,12 @@ from collections.abc import Iterator
 from policies.instructions.quantities.numerals import in_digits
 from tacgrasp.lessons.dialogue.meaning import (
     Amount,
+    AnswerKind,
     Calculated,
     Check,
     Meaning,
     Several,
+    kind_of,
     names_of,
 )
 from tacgrasp.lessons.turns.bands import HOW_FAR_FROM, about_the_band
@@ -45,6 +47,7 @@ from tacgrasp.lessons.turns.places import (
     with_another_axis,
     with_another_side,
 )
+from tacgrasp.lessons.turns.references import is_multiple
 from tacgrasp.lessons.turns.supposed import (
     still_under,
     under_supposition,
@@ -92,6 +95,8 @@ def rewritten(question: str, before: str, meant: Meaning | None, noun: str) -> I
         noun: What a pronoun may stand for; '' for nothing.
     """
     question = question.strip()
+    if is_multiple(question) and meant is not None and kind_of(meant) is AnswerKind.NUMBER:
+        noun = ""  # 'half of that' is half the number, not half of what it was compared with
     for text in (
         claimed(question, before),
         stated(question),

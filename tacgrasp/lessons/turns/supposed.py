@@ -42,7 +42,7 @@ _SUPPOSED = (
     ),
 )
 """A question with a supposition, before or behind what is asked."""
-_ANOTHER_IF = re.compile(rf"{LEAD}(?P<if>if [^,]+?)[?.! ]*", re.I)
+_ANOTHER_IF = re.compile(rf"{LEAD}(?:what )?(?P<if>if [^,]+?)[?.! ]*", re.I)
 _CHANGED = re.compile(r"\b(?:halved|doubled|tripled|raised|increased|lowered|reduced)\b", re.I)
 """What names the supposed force itself."""
 _UNDER_IT = re.compile(r"\b(?:it|that|this|then|still|would)\b", re.I)
@@ -89,7 +89,7 @@ _TAKING = re.compile(
     r"(?: off| away)?(?:[, ]+instead)?",
     re.I,
 )
-_LETTING = re.compile(r"if (?:i|we|you) [^,]+", re.I)
+_LETTING = re.compile(r"(?:(?:what|how about) )?(?P<if>if (?:i|we|you) [^,]+)", re.I)
 
 
 def still_under(question: str, noun: str) -> str:
@@ -158,7 +158,8 @@ def changed_force(question: str) -> str:
         return f"(force_n - {newtons:.6g})"
     if found := _TIMES_FORCE.fullmatch(words):
         return f"({TIMES[found['times'].lower()]:g} * force_n)"
-    if _LETTING.fullmatch(words) and (read := understood_by_grammar(f"What {words}?")):
+    letting = _LETTING.fullmatch(words)
+    if letting and (read := understood_by_grammar(f"What {letting['if']}?")):
         is_force = isinstance(read.meaning, Calculated) and read.meaning.unit == "N"
         names = Expression(truth_of(read.meaning)).names if is_force else ()
         return f"({truth_of(read.meaning)})" if names == ("force_n",) else ""

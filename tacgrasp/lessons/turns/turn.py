@@ -40,6 +40,7 @@ from tacgrasp.lessons.turns.supposed import (
     of_supposed_force,
     supposed_in,
     unsupposed,
+    with_another_supposition,
 )
 from tacgrasp.lessons.turns.told import Told, told_in
 from tacgrasp.lessons.understanding import (
@@ -175,7 +176,8 @@ def next_turn(writer: QueryWriter, question: str, before: Turn) -> Turn:
     if both := of_both(question, before.condition, before.earlier_condition):
         return replace(before, read=_read_so(both), about=both, told=None)
     if (force := changed_force(question)) and (supposed := of_changed_force(force, before.of_felt)):
-        return before.then(before.text, _read_so(supposed), is_supposed=True)
+        text = next(with_another_supposition(question, before.text), before.text)
+        return before.then(text, _read_so(supposed), is_supposed=True)
     for text in (
         *rewritten(question, before.text, before.about, before.noun),
         *rewritten(question, before.numbered, before.number, ""),

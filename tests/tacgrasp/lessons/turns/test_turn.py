@@ -146,6 +146,32 @@ def test_several_follow_ups_in_a_row_lose_nothing(questions, query):
             ("How much force is needed for 60 g?", "Do we have that much?"),
             "calculate force_n >= (gram_n * 60).",
         ),
+        (
+            ("What percentage of the limit is used?", "half of that?"),
+            "calculate 0.5 * (100 * force_n / limit_n) in %.",
+        ),
+        (
+            ("How far are we below the limit?", "what would a tenth of that be?", "in mN?"),
+            "calculate 0.1 * (limit_n - force_n) in mN.",
+        ),
+        (
+            ("What is the limit?", "in grams?", "and half of it?"),
+            "calculate 0.5 * ((limit_n) / 0.00980665) in g.",
+        ),
+        (("What is the limit?", "Are we over half of it?"), "check used > #1 %."),
+        (
+            ("What percentage of the limit is used?", "Is that more than 30 %?", "By how much?"),
+            "calculate abs(100 * force_n / limit_n - (30)) in %.",
+        ),
+        (
+            ("Is the force above 3 N?", "so between 1 and 2?"),
+            "calculate min(1, 2) <= force_n <= max(1, 2).",
+        ),
+        (("How deep is it in microns?", "between 0.4 and 0.5 mm?"), "check depth #1 - #2 mm."),
+        (
+            ("What is the band?", "Are we in it?", "What's missing?"),
+            "calculate max(0, band_low_n - force_n, force_n - band_high_n) in N.",
+        ),
         # sides, axes and classes
         (("Does it run off the pad anywhere?", "On the left?"), "check cut left."),
         (
@@ -153,6 +179,10 @@ def test_several_follow_ups_in_a_row_lose_nothing(questions, query):
             "check cut right.",
         ),
         (("Does it run off the pad anywhere?", "up at the palm end?"), "check cut top."),
+        (("Does it touch the left edge?", "any other edge?"), "calculate cut."),
+        (("Where is it?", "in mm?"), "amount x mm; amount y mm."),
+        (("Where is it?", "exactly?"), "amount x mm; amount y mm."),
+        (("What is the contact area?", "what's the rest?"), "amount free_area %."),
         (
             ("Does it run off the pad anywhere?", "So how many sides altogether?"),
             "calculate cut_left + cut_right + cut_top + cut_bottom in 1.",
@@ -193,6 +223,18 @@ def test_several_follow_ups_in_a_row_lose_nothing(questions, query):
             "calculate (force_n + 1) < limit_n.",
         ),
         (("How many grams does it hold?", "and with twice the force?"), TWICE),
+        (
+            ("Is it safe to lift?", "What if I add 0.3 N?", "and 0.2?"),
+            "calculate band_low_n <= (force_n + 0.2) <= band_high_n.",
+        ),
+        (
+            ("Are we over the limit?", "How about if I double the force?"),
+            "calculate (2 * force_n) > limit_n.",
+        ),
+        (
+            ("Is it safe to lift?", "What if I add 0.3 N?", "What would the force be then?"),
+            "calculate force_n + 0.3 in N.",
+        ),
         (("The band is 1 to 2 N.", "If I press 0.5 N harder, are we in then?"), IN_AFTER),
         (("The limit is 3 N.", "And now, are we over?"), "check force over."),
         (("Object mass is 32 g.", "Will it hold?", "Sorry, 82 g.", "Still enough?"), HOLDS),
@@ -243,6 +285,17 @@ def test_a_supposed_force_is_told_in_the_answer():
     assert text == "Yes, the force would be 1.73 N, the limit is 1.30 N."
     text = answers("What if I add 0.1 N?", "Is that within the band?")
     assert text.startswith("Yes, the force would be 0.93 N, ")
+    text = answers("Will it slip?", "What if I take off 0.4 N?")
+    assert text == "Yes, the force would be 0.43 N, it needs 0.51 N."
+    text = answers("With 10 % more force, are we in the band?")
+    assert text.startswith("Yes, the force would be 0.91 N, ")
+
+
+def test_reasons_are_a_list():
+    text = answers("What is the force?", "Why?")
+    assert text == (
+        "Because the depth is 0.19 mm, the contact area is 12 % and the force is 0.83 N."
+    )
 
 
 def test_a_question_that_stands_alone_follows_nothing():
