@@ -34,7 +34,7 @@ from tacgrasp.lessons.dialogue.patterns.family import QuestionFamily
 from tacgrasp.lessons.dialogue.patterns.pattern import draw
 from tacgrasp.lessons.dialogue.plain_words import CONTRACTIONS, MISSPELLINGS
 from tacgrasp.lessons.dialogue.query import LostNumberError, asked_text, query_of
-from tacgrasp.lessons.dialogue.scene import AskedScene, band_contract
+from tacgrasp.lessons.dialogue.scene import HOLDING_N_PER_G, AskedScene, band_contract
 from tacgrasp.lessons.dialogue.scoring.question_file import QuestionRow, question_row
 from tacgrasp.lessons.dialogue.whole_wordings import drawn_whole
 from tacgrasp.lessons.slips import slipped
@@ -186,7 +186,9 @@ def draw_scene(state: ContactState, rng: np.random.Generator) -> AskedScene:
     contract = draw_contract(state, rng) if rng.random() < 0.85 else None
     mass_g = None
     if rng.random() < 0.75:
-        mass_g = float(max(2, round(force_n / 0.0205 * float(np.exp(rng.uniform(-0.8, 0.8))))))
+        mass_g = float(
+            max(2, round(force_n / HOLDING_N_PER_G * float(np.exp(rng.uniform(-0.8, 0.8)))))
+        )
     return AskedScene(state=state, contract=contract, mass_g=mass_g)
 
 

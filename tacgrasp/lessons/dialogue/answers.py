@@ -53,7 +53,7 @@ from tacgrasp.lessons.dialogue.quantities import (
     to_step,
     value_text,
 )
-from tacgrasp.lessons.dialogue.scene import AskedScene, Value
+from tacgrasp.lessons.dialogue.scene import PER_GRAM, AskedScene, Value
 
 OFF_TOPIC = "That is not about touch."
 UNKNOWABLE = "I can't feel {}."
@@ -71,12 +71,12 @@ _SUPPOSED_N = re.compile(
 
 _SUPPOSED_G = re.compile(
     r"(?:(?P<force>force_n)|[\d.]+) (?:<|>=) "
-    r"(?P<needed>(?:gram_n|0\.0205) \* (?P<mass>.*\bmass_g\b.*|[\d. *]+))"
+    rf"(?P<needed>{PER_GRAM} \* (?P<mass>.*\bmass_g\b.*|[\d. *]+))"
 )
 """The force that a supposed mass needs, or that the given one needs: '2 >= gram_n * mass_g'."""
 
 _DENIED = re.compile(r"not \((.+)\)")
-_NEEDED_N = re.compile(r"(?:gram_n|0\.0205) \* (?:mass_g|[\d. *]+)$")
+_NEEDED_N = re.compile(rf"{PER_GRAM} \* (?:mass_g|[\d. *]+)$")
 """The force that a mass needs, which another force is compared with."""
 
 _TESTED = re.compile(r"(?P<name>\w+) .*\d (?P<unit>\S+)")

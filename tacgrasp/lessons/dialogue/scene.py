@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
@@ -25,6 +26,9 @@ from primitives.contract import (
 HOLDING_N_PER_G = 0.0205
 """Grip that surely holds a gram [N/g]. Source: two fingers with friction 0.3, the least of the
 benchmark's draws, lifting at 2.5 m/s²: (9.81 + 2.5) / (2 · 0.3) mN."""
+
+PER_GRAM = rf"(?:gram_n|{re.escape(str(HOLDING_N_PER_G))})"
+"""Pattern of it in an expression: its name, or its value."""
 
 LIFT, HOLD = "lift", "hold"
 """Values of ``action`` where no primitive is advised: the grasp is good, or nothing would help."""

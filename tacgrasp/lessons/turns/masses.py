@@ -20,6 +20,7 @@ from tacgrasp.lessons.dialogue.meaning import (
     kind_of,
     truth_of,
 )
+from tacgrasp.lessons.dialogue.scene import PER_GRAM
 from tacgrasp.lessons.turns.leads import END, LEAD, without_lead
 from tacgrasp.lessons.turns.units import (
     ANOTHER_NUMBER,
@@ -62,7 +63,7 @@ _SEVERAL = re.compile(
     r"together| together| at once| instead)?",
     re.I,
 )
-_GRAMS = re.compile(r"\b(?P<each>gram_n|0\.0205) \* (?P<grams>\d+(?:\.\d+)?)")
+_GRAMS = re.compile(rf"\b(?P<each>{PER_GRAM}) \* (?P<grams>\d+(?:\.\d+)?)")
 _HOLDING = re.compile(r"\b(?:hold|do|work|suffice|stay|carry|enough)\b", re.I)
 _COUNTS = {"two": 2, "three": 3, "four": 4, "five": 5}
 
