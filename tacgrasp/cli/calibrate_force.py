@@ -30,8 +30,9 @@ class CalibrateForceFlags:
     Gels differ in stiffness from unit to unit, so that forces read without this calibration are
     off by a third. Use a round tip (a ball of about 15 mm) under the weights, in the middle of the
     pad. With --by gripper, the calibrated gripper closes on a round firm object instead, with no
-    more than the rig's gripper.max_force_n, and is opened again, after Ctrl-C too. The world of a
-    simulated or emulated rig puts the loads itself and knows their force, whatever --by says.
+    more than the rig's gripper.max_force_n, and is opened again, after Ctrl-C too; it must be open
+    at the start. The world of a simulated or emulated rig puts the loads itself and knows their
+    force, whatever --by says.
 
     Attributes:
         rig: Name of a rig, or path of its YAML file.
@@ -200,10 +201,12 @@ def _loaded(
             yield sensor, PersonLoads(_ask), "weights on the pad"
             return
         from tacgrasp.drivers.dynamixel.gripper import connect_gripper
+        from tacgrasp.drivers.opening import check_open
 
         prepare(sensor)
         gripper = connect_gripper(config.hardware.dynamixel_gripper)
         try:
+            check_open(gripper)
             whose = "what the gripper's calibration and max_current_ma allow"
             check_within(loads_n, 0.0, gripper.max_force_n, whose)
             yield sensor, GripperLoads(gripper, RealClock()), "the calibrated gripper"

@@ -4,8 +4,13 @@ import pytest
 import yaml
 
 from cltp.sensing.force_calibration import load_force_calibration
+from sim.emulators.dynamixel.bus_process import DynamixelEmulator
+from sim.emulators.dynamixel.fingers import SpringLoad
 from sim.grasp.devices import SimGripper
+from sim.grasp.rig import build
 from tacgrasp.__main__ import main
+from tacgrasp.drivers.dynamixel.gripper import connect_gripper
+from tests.fakes.emulated_servos import emulated_gripper
 from tests.paths import ROOT
 
 QUICK = ["--loads", "0.5", "1", "2"]
@@ -67,6 +72,39 @@ def test_loads_beyond_the_rigs_limits_are_refused_before_anything_moves(
         assert part in error
     assert not grips
     assert not out.exists()
+
+
+def test_a_gripper_that_still_grips_is_not_opened(out, tmp_path, capsys, monkeypatch):
+    pytest.importorskip("dynamixel_sdk")
+    emulator = DynamixelEmulator(SpringLoad(width_m=0.06))
+    try:
+        settings = emulated_gripper(emulator.serial_port, tmp_path)
+        own = tmp_path / settings.calibration
+        first = connect_gripper(settings.model_copy(update={"calibration": own}))
+        first.grip(1.0)
+        first.disconnect()
+        box = {"workspace_low_m": [0.3, -0.2, 0.1], "workspace_high_m": [0.5, 0.0, 0.4]}
+        rig = yaml.safe_load((ROOT / "tacgrasp" / "rigs" / "sim.yaml").read_text())
+        rig["devices"], rig["gripper"]["first_force_n"] = "hardware", 0.5
+        rig["hardware"] = {
+            "arm": {"kind": "ur", "host": "127.0.0.2", "payload_kg": 1.0, **box},
+            "gripper": settings.model_dump(mode="json"),
+            "sensor": {"kind": "taxels", "port": "/dev/null"},
+        }
+        path = tmp_path / "real.yaml"
+        path.write_text(yaml.safe_dump(rig))
+        sensor = build("egg", 5).sensor
+        sensor.disconnect = lambda: None
+        monkeypatch.setattr("tacgrasp.rig.hardware.connect_sensor", lambda settings: sensor)
+        before = emulator.facts()
+        code = calibrate(out, *QUICK, "--rig", str(path), "--by", "gripper")
+        assert code == 3
+        assert "the gripper is not open: it still grips" in capsys.readouterr().err
+        after = emulator.facts()
+        assert (after["squeezes"], after["width_m"]) == (before["squeezes"], before["width_m"])
+        assert after["force_n"] == pytest.approx(1.0, abs=0.02)
+    finally:
+        emulator.close()
 
 
 def test_an_existing_file_is_kept_unless_it_may_be_replaced(out, capsys):
