@@ -27,13 +27,11 @@ from tacgrasp.episodes.record import (
     StepRecord,
     StepState,
     Topic,
+    most_json_bytes,
 )
 from tacgrasp.episodes.scan import Scan, scan_file
 from tacgrasp.episodes.touch_message import decode_cloud
 from tacgrasp.episodes.view_messages import ViewTopic, decode_image
-
-MAX_JSON_BYTES = 2_000_000
-"""Longest message in JSON; those of a step with a thousand commands have 300 kB. Our choice."""
 
 MAX_LOST_CHARACTERS = 500
 """Most that is shown of what a recovered file says of its damage. Our choice."""
@@ -202,8 +200,8 @@ def _parse(topic: Topic, group: Mapping[str, bytes]) -> Any:
     if topic not in group:
         return None
     data = group[topic]
-    if len(data) > MAX_JSON_BYTES:
-        raise ValueError(f"{topic} has {len(data)} bytes; at most {MAX_JSON_BYTES} are read")
+    if len(data) > (most := most_json_bytes(topic)):
+        raise ValueError(f"{topic} has {len(data)} bytes; at most {most} are read")
     try:
         return from_json(JSON_MESSAGES[topic][1], json.loads(data))
     except RecursionError:

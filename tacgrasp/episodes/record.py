@@ -29,6 +29,7 @@ from dataclasses import dataclass, fields
 from enum import StrEnum
 from typing import Any
 
+from cltp.sensing.taxel_packets import MAX_TAXELS
 from cltp.tactile.cloud import Stamp, TactileCloud
 from cltp.tactile.force_scale import UNCALIBRATED, ForceScale
 from cltp.tactile.sensors import SensorSpec
@@ -295,6 +296,18 @@ JSON_MESSAGES: Mapping[Topic, tuple[str, type]] = {
     Topic.END: ("EpisodeEnd", EpisodeEnd),
 }
 """Name of the stored schema (that of format 1) and type of each JSON channel's messages."""
+
+MAX_JSON_BYTES = 2_000_000
+"""Longest message in JSON; those of a step with a thousand commands have 300 kB. Our choice."""
+
+_NUMBER_BYTES = 25  # of a float32 as the longest text of a double, with comma and blank
+MAX_SHEAR_BYTES = MAX_JSON_BYTES + 8 * MAX_TAXELS * _NUMBER_BYTES
+"""Longest message of a shear field, whose points have eight numbers each."""
+
+
+def most_json_bytes(topic: Topic) -> int:
+    """Longest message of a JSON channel that is written and read [bytes]."""
+    return MAX_SHEAR_BYTES if topic is Topic.SHEAR else MAX_JSON_BYTES
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -31,8 +31,9 @@ from tacgrasp.episodes.errors import EpisodeError
 
 MAX_BYTES = 128_000_000
 """Most bytes of a file, and of what its chunks hold: 1,700 steps of the simulated sensor's 4,800
-points, 110 of a GelSight Mini's 76,800. Our choice, so that a crafted file can't fill the memory; a
-task has 25 actions unless it asks for more."""
+points, 107 of a GelSight Mini's 76,800. Our choice, so that a crafted file can't fill the memory:
+an episode is read as a whole. A task has 25 actions unless it asks for more; the writer refuses a
+step beyond."""
 
 MAX_RECORDS = 100_000
 """Most records of a file: 10,000 steps. Our choice."""

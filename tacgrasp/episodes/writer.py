@@ -40,7 +40,9 @@ from tacgrasp.episodes.record import (
     StepRecord,
     StepState,
     Topic,
+    most_json_bytes,
 )
+from tacgrasp.episodes.scan import MAX_BYTES
 from tacgrasp.episodes.touch_message import ShearMessage, encode_cloud, wall_ns
 from tacgrasp.episodes.view_messages import SCHEMAS, end_messages, step_messages
 
@@ -48,6 +50,12 @@ log = logging.getLogger(__name__)
 
 CHUNK_BYTES = 1 << 30
 """Larger than any step (40 kB with 1024 points): a chunk ends only where the writer is flushed."""
+
+SPARE_BYTES = 4_000_000
+"""Bytes of a file that no step may take, for its end, schemas, indexes and summary. Our choice:
+twice the longest end."""
+
+_MESSAGE_BYTES = 31  # of a message's own head in a chunk
 
 
 class EpisodeWriter:
@@ -64,7 +72,7 @@ class EpisodeWriter:
     def __init__(self, path: Path, header: EpisodeHeader) -> None:
         self.path = path
         self._header = header
-        self._sequence = 0
+        self._sequence = self._num_bytes = 0
         self._channels: dict[str, int] = {}
         self._file: BufferedWriter | None = None
         self._finished = False
@@ -78,7 +86,7 @@ class EpisodeWriter:
             EpisodeError: The directory is missing, read-only or full, or the file exists.
         """
         header = self._header
-        message = self._json(header)
+        message = self._json(Topic.EPISODE, header)
         metadata = {
             "format": FORMAT,
             "task": header.task,
@@ -110,28 +118,31 @@ class EpisodeWriter:
 
         Raises:
             EpisodeError: The disk refused it (full, gone); earlier steps are safe in the file, and
-                nothing more can be written. Or a number in it is not finite; then nothing was
-                written, and the next step can be.
+                nothing more can be written. Or a number in it is not finite, a message too long, or
+                the file full; then nothing was written, and another step or the end can be.
         """
         common: dict[str, Any] = {"index": record.index, "stamp": record.stamp}
         messages: dict[str, bytes] = {Topic.CLOUD: encode_cloud(record.cloud, record.stamp)}
         if record.shear is not None:
-            messages[Topic.SHEAR] = self._json(ShearMessage.of(record.shear, **common))
+            messages[Topic.SHEAR] = self._json(Topic.SHEAR, ShearMessage.of(record.shear, **common))
         if record.decision is not None:
             decision = DecisionMessage(**common, decision=record.decision)
-            messages[Topic.DECISION] = self._json(decision)
+            messages[Topic.DECISION] = self._json(Topic.DECISION, decision)
         if record.executed is not None:
-            messages[Topic.ACTION] = self._json(ActionMessage(**common, executed=record.executed))
+            action = ActionMessage(**common, executed=record.executed)
+            messages[Topic.ACTION] = self._json(Topic.ACTION, action)
         messages[Topic.STATE] = self._json(
+            Topic.STATE,
             StepState(
                 **record.shared(),
                 cloud_stamp=record.cloud.stamp,
                 tick_ms=record.step_ms,
                 force_scale=record.cloud.force_scale,
-            )
+            ),
         )
         self._contract = record.contract or self._contract
         messages |= step_messages(record, self._contract, self._header.pad)
+        self._refuse_beyond(f"step {record.index}", messages)
         with self._durably(f"step {record.index}"):
             self._add(record.stamp, messages)
 
@@ -143,7 +154,7 @@ class EpisodeWriter:
         """
         if self._finished:
             raise EpisodeError(f"{self.path} has been finished already; an episode ends once")
-        message = self._json(end)
+        message = self._json(Topic.END, end)
         with self._durably("its end"):
             self._add(end.stamp, {Topic.END: message, **end_messages(end)})
             self._finished = True
@@ -207,15 +218,31 @@ class EpisodeWriter:
             schema = self._mcap.register_schema(f"tacgrasp.{name}", "jsonschema", text)
             self._channels[topic] = self._mcap.register_channel(topic, "json", schema)
 
-    def _json(self, message: Any) -> bytes:
+    def _json(self, topic: Topic, message: Any) -> bytes:
         """Encode a message before anything is added; one that can't be stored changes no file."""
         kind = type(message).__name__
         try:
-            return json.dumps(to_json(message, kind), ensure_ascii=False, allow_nan=False).encode()
+            text = json.dumps(to_json(message, kind), ensure_ascii=False, allow_nan=False)
         except TypeError as error:
             raise EpisodeError(f"{self.path}: {kind} can't be recorded: {error}") from error
         except ValueError as error:
             raise EpisodeError(f"{self.path}: {error}") from None
+        data, most = text.encode(), most_json_bytes(topic)
+        if len(data) > most:
+            raise EpisodeError(
+                f"{self.path}: {kind} has {len(data)} bytes; at most {most} can be read again"
+            )
+        return data
+
+    def _refuse_beyond(self, part: str, messages: Mapping[str, bytes]) -> None:
+        """Refuse a step after which no reader would take the file, or its end would not fit."""
+        num_bytes = _num_bytes(messages)
+        in_file = 0 if self._file is None else self._file.tell()
+        if max(self._num_bytes, in_file) + num_bytes + SPARE_BYTES > MAX_BYTES:
+            raise EpisodeError(
+                f"{self.path} is full: {part} would make it larger than the {MAX_BYTES} bytes that "
+                "are read again; allow fewer steps (loop.max_steps), or use a coarser sensor"
+            )
 
     def _add(self, stamp: Stamp, messages: Mapping[str, bytes]) -> None:
         """Add the messages of one record, which share its sequence number."""
@@ -223,6 +250,7 @@ class EpisodeWriter:
         for topic, data in messages.items():
             self._mcap.add_message(self._channels[topic], time_ns, data, time_ns, self._sequence)
         self._sequence += 1
+        self._num_bytes += _num_bytes(messages)
 
     def _write_error(self, part: str, error: OSError) -> str:
         line = refusal(self.path, f"write {part} to", error)
@@ -245,6 +273,10 @@ def start_mcap(file: BufferedWriter) -> Writer:
     writer = Writer(file, chunk_size=CHUNK_BYTES, compression=CompressionType.LZ4)
     writer.start(profile="", library="tacgrasp")
     return writer
+
+
+def _num_bytes(messages: Mapping[str, bytes]) -> int:
+    return sum(_MESSAGE_BYTES + len(data) for data in messages.values())
 
 
 def _create(path: Path) -> BufferedWriter:

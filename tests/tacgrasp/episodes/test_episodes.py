@@ -5,6 +5,7 @@ import resource
 import signal
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from io import BufferedWriter
 from pathlib import Path
 
@@ -239,6 +240,36 @@ def test_a_number_that_is_not_finite_is_refused_and_the_file_stays_whole(tmp_pat
         writer.write_step(step_record(1))
     episode = read_episode(path)
     assert episode.complete and [t.index for t in episode.steps] == [1]
+
+
+def test_a_step_beyond_what_is_read_again_is_refused_and_the_episode_still_ends(
+    tmp_path: Path, monkeypatch: Patch
+) -> None:
+    path = tmp_path / "e.mcap"
+    largest = writer_module.SPARE_BYTES + 150_000
+    monkeypatch.setattr(writer_module, "MAX_BYTES", largest)
+    monkeypatch.setattr("tacgrasp.episodes.scan.MAX_BYTES", largest)
+    num_steps = 0
+    with EpisodeWriter(path, header()) as writer:
+        with pytest.raises(EpisodeError, match=r"is full: step \d .*allow fewer steps"):
+            while num_steps < 100:
+                writer.write_step(step_record(num_steps))
+                num_steps += 1
+        writer.finish(end())
+    episode = read_episode(path)
+    assert len(episode.steps) == num_steps > 0
+    assert episode.complete
+    assert episode.end is not None
+
+
+def test_a_message_longer_than_one_that_is_read_again_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "e.mcap"
+    with EpisodeWriter(path, header()) as writer:
+        with pytest.raises(EpisodeError, match=r"StepState has .* at most 2000000 can be read"):
+            writer.write_step(replace(step_record(0), note="x" * 2_000_000))
+        writer.write_step(step_record(0))
+        writer.finish(end())
+    assert read_episode(path).complete
 
 
 def test_an_episode_ends_once(tmp_path: Path) -> None:
