@@ -71,7 +71,8 @@ def test_a_command_that_was_not_sent_and_a_text_beyond_the_contract_are_refusals
     step = free(0)
     assert step.decision is not None
     beyond = replace(step.decision, action=None, reason="beyond the contract: 3 N are felt")
-    trouble = first_trouble(episode([replace(step, decision=beyond, executed=None)]))
+    unasked = replace(step, decision=beyond, executed=None)
+    trouble = first_trouble(episode([unasked], reason="no_action"))
     assert trouble is not None
     assert trouble.kind == "refusal"
 
@@ -87,6 +88,33 @@ def test_a_failed_verification_shows_the_state_before_the_lift() -> None:
     assert trouble is not None
     assert (trouble.kind, trouble.message, trouble.step) == ("failed verification", message, before)
     assert ("step", "1 of 3, 0.5 s after the start, before the lift") in explain(bad, "e.mcap")
+
+
+@pytest.mark.parametrize(("reason", "kind"), [("operator", "operator"), ("limit", "refusal")])
+def test_a_stop_and_a_limit_in_mid_action_are_no_faults(reason: str, kind: str) -> None:
+    cut = free(1, note="cut short: x", commands=(failed("KeyboardInterrupt"),))
+    trouble = first_trouble(episode([free(0), cut], reason=reason, message="x"))
+    assert trouble is not None
+    assert (trouble.kind, trouble.message, trouble.step) == (kind, "x", cut)
+
+
+def test_what_the_run_survived_is_told_but_no_trouble() -> None:
+    hiccup = free(0, note="TouchError: no fresh frame")
+    steps = [hiccup, refused(1), free(2)]
+    good = episode(steps)
+    assert first_trouble(good) is None
+    assert explain(good, "e.mcap")[:3] == [
+        ("trouble", "none: what failed was survived, no failed verification"),
+        ("survived", "step 0: TouchError: no fresh frame"),
+        ("survived", "step 1: at the limit of force"),
+    ]
+    dropped = episode(steps, reason="unverified", verified_success=False, message="dropped")
+    rows = explain(dropped, "e.mcap")
+    assert rows[0] == ("trouble", "failed verification: dropped")
+    assert rows[1] == ("survived", "step 0: TouchError: no fresh frame")
+    fault = first_trouble(episode(steps, reason="fault", message="3 times in a row"))
+    assert fault is not None
+    assert (fault.kind, fault.step) == ("fault", hiccup)
 
 
 def test_a_bruise_that_touch_called_a_success_is_trouble() -> None:
