@@ -8,6 +8,7 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from importlib import metadata
 from pathlib import Path
 
+from cltp.errors import TouchError
 from primitives.devices import Pose
 from primitives.errors import LimitError, RobotError
 from primitives.execution import PadAxes
@@ -22,7 +23,7 @@ from tacgrasp.drivers.check import Finding, finding
 from tacgrasp.drivers.force_scale import good_finding
 from tacgrasp.drivers.plugin import BASES, driver_refusal
 from tacgrasp.policy_factory import POLICIES, policy_refusal
-from tacgrasp.rig.factory import object_names, object_refusal
+from tacgrasp.rig.factory import check_slip_calibration, object_names, object_refusal
 from tacgrasp.rig.hardware import device_findings, start_pose
 
 LIBRARIES = {
@@ -117,8 +118,20 @@ def _file_findings(config: RunConfig) -> list[Finding]:
     axes = PadAxes(x_tcp=config.pad.x_axis, y_tcp=config.pad.y_axis)
     directions = f"x {_listed(axes.x_tcp)}, y {_listed(axes.y_tcp)} in the TCP's frame"
     found = [finding("rig", "limits", True, limits), finding("rig", "pad axes", True, directions)]
+    if config.reflex and config.slip_calibration is not None:
+        found.append(_slip_finding(config, config.slip_calibration))
     start = None if config.hardware is None else start_pose(config.hardware.start)
     return found if start is None else [*found, _start_finding(start, config)]
+
+
+def _slip_finding(config: RunConfig, path: Path) -> Finding:
+    """Whether a run may use the slip calibration of the rig's file."""
+    try:
+        check_slip_calibration(config)
+    except TouchError as error:
+        advice = "make or name the right one: tacgrasp calibrate slip; or name none"
+        return finding("rig", "slip calibration", False, str(error), advice)
+    return finding("rig", "slip calibration", True, str(path))
 
 
 def _start_finding(pose: Pose, config: RunConfig) -> Finding:

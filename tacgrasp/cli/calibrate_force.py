@@ -70,7 +70,7 @@ def run(flags: CalibrateForceFlags) -> None:
     config = config.model_copy(update={"object": flags.object, "seed": flags.seed})
     named = None if config.hardware is None else config.hardware.sensor.force_calibration
     out = flags.out or named or Path("force_calibration.json")
-    sensor, unit = config.sensor, unit_of(config)
+    sensor, unit = config.sensor, config.sensor_unit
     unfinished = UnfinishedLoads(out=out, sensor=sensor, unit=unit, loads_n=loads_n)
     _check_paths(flags, out, unfinished.path)
     measured = unfinished.read() if flags.resume else []
@@ -102,11 +102,6 @@ def run(flags: CalibrateForceFlags) -> None:
     _write(out, calibration)
     unfinished.drop()
     _print(console, calibration, out, _next(flags, config, out))
-
-
-def unit_of(config: RunConfig) -> str:
-    """Name of the sensor's unit in its calibration."""
-    return "simulated" if config.hardware is None else config.hardware.sensor.unit
 
 
 def _has_world(config: RunConfig) -> bool:

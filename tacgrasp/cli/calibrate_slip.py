@@ -46,7 +46,6 @@ def run(flags: CalibrateSlipFlags) -> None:
     from cltp.tactile.shear.slip import slip_model
     from cltp.tactile.shear.slip_calibration import calibrate_slip, save_slip_calibration
     from tacgrasp.bringup.slip_hold import held_frames
-    from tacgrasp.cli.calibrate_force import unit_of
     from tacgrasp.config.layers import load
     from tacgrasp.console import make_console, working
     from tacgrasp.rig.factory import make_centred_rig, make_rig
@@ -69,7 +68,7 @@ def run(flags: CalibrateSlipFlags) -> None:
         rig.disconnect()
     today = datetime.date.today().isoformat()
     found = calibrate_slip(
-        hold, unload, sensor=rig.sensor.spec.name, unit=unit_of(config), date=today
+        hold, unload, sensor=rig.sensor.spec.name, unit=config.sensor_unit, date=today
     )
     try:
         save_slip_calibration(flags.out, found)

@@ -314,6 +314,11 @@ class RunConfig(SettingsBase):
     record: Path = Path("episodes")
 
     @property
+    def sensor_unit(self) -> str:
+        """Name of the sensor's unit in its calibrations."""
+        return "simulated" if self.hardware is None else self.hardware.sensor.unit
+
+    @property
     def weights_folder(self) -> Path | None:
         """Folder of the language model's weights, by either name; None for the usual ones."""
         return self.weights or self.llm.dir

@@ -6,6 +6,7 @@ A rig of supported devices needs only its YAML file. A new driver gets a line in
 
 from __future__ import annotations
 
+import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -107,16 +108,32 @@ def check_names(config: RunConfig) -> None:
     is_named = config.hardware is None or config.devices == "emulated"  # a driver names its own
     if is_named:
         sensor_named(config.sensor)
-    if config.reflex and config.slip_calibration is not None:
-        from cltp.tactile.shear.slip_calibration import load_slip_calibration
-
-        load_slip_calibration(config.slip_calibration, config.sensor if is_named else None)
+    check_slip_calibration(config)
     if config.devices != "hardware":
         _check_object(config)
     elif config.hardware is not None:
         from tacgrasp.rig.hardware import check_files
 
         check_files(config.hardware)
+
+
+def check_slip_calibration(config: RunConfig) -> None:
+    """Check the slip calibration of a run, if it uses one.
+
+    Raises:
+        TouchError: It is missing, damaged, too old, or that of another sensor or unit.
+    """
+    if not config.reflex or config.slip_calibration is None:
+        return
+    from cltp.tactile.shear.slip_calibration import load_unit_slip
+
+    is_named = config.hardware is None or config.devices == "emulated"  # a driver names its own
+    load_unit_slip(
+        config.slip_calibration,
+        sensor=config.sensor if is_named else None,
+        unit=config.sensor_unit,
+        today=datetime.date.today(),
+    )
 
 
 def _check_object(config: RunConfig) -> None:

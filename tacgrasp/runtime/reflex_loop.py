@@ -9,6 +9,7 @@ Not here: what it decides (``policies.reflex``), when the loop lets it run (``ta
 
 from __future__ import annotations
 
+import datetime
 import math
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
@@ -19,7 +20,7 @@ import numpy as np
 from cltp.errors import TouchError
 from cltp.tactile.shear.field import ShearField
 from cltp.tactile.shear.slip import SlipJudge, slip_model
-from cltp.tactile.shear.slip_calibration import load_slip_calibration
+from cltp.tactile.shear.slip_calibration import load_unit_slip
 from policies.reflex import IMPOSSIBLE, RESPONSE_S, Act, Correction, ReflexReading, correct
 from policies.reflex_trace import NO_SLIP, ForceCorrection, ReflexTrace, absent_trace
 from primitives.contract import Contract
@@ -274,7 +275,7 @@ def make_reflex(rig: Rig, executor: Executor, config: RunConfig) -> ReflexLoop |
     """The reflex of a run, with its unit's slip calibration; None where it is switched off.
 
     Raises:
-        TouchError: The calibration is missing, damaged, or that of another sensor.
+        TouchError: The calibration is missing, damaged, too old, or that of another unit.
     """
     return ReflexLoop(rig, executor, slip_threshold(rig, config)) if config.reflex else None
 
@@ -283,11 +284,16 @@ def slip_threshold(rig: Rig, config: RunConfig) -> float | None:
     """Threshold of the unit's slip calibration; None: that of all units, or no reflex.
 
     Raises:
-        TouchError: The calibration is missing, damaged, or that of another sensor.
+        TouchError: The calibration is missing, damaged, too old, or that of another unit.
     """
     if not config.reflex or config.slip_calibration is None:
         return None
-    return load_slip_calibration(config.slip_calibration, rig.sensor.spec.name).threshold
+    return load_unit_slip(
+        config.slip_calibration,
+        sensor=rig.sensor.spec.name,
+        unit=config.sensor_unit,
+        today=datetime.date.today(),
+    ).threshold
 
 
 def unfelt_slips(rig: Rig, config: RunConfig) -> str:

@@ -8,6 +8,7 @@ Not here: the hold (``tacgrasp.bringup.slip_hold``).
 
 from __future__ import annotations
 
+import datetime
 import json
 import math
 from collections.abc import Sequence
@@ -16,6 +17,7 @@ from pathlib import Path
 
 from cltp.atomic_write import write_atomically
 from cltp.errors import TouchError
+from cltp.sensing.force_calibration import MAX_AGE_DAYS
 from cltp.tactile.shear.contact_shear import ShearWatch
 from cltp.tactile.shear.field import ShearField
 from cltp.tactile.shear.slip import SlipJudge, noise_of, slip_model
@@ -118,7 +120,8 @@ def load_slip_calibration(path: Path, sensor: str | None) -> SlipCalibration:
     """Read the calibration of a sensor; None takes that of any.
 
     Raises:
-        TouchError: Missing, damaged, of another kind or version, or of another sensor.
+        TouchError: Missing, damaged, of another kind or version, of another sensor, without a date,
+            or with a threshold that no calibration gives.
     """
     try:
         if path.stat().st_size > _MAX_BYTES:
@@ -140,4 +143,41 @@ def load_slip_calibration(path: Path, sensor: str | None) -> SlipCalibration:
             raise TouchError(f"{path}: {name} is {record[name]!r}; {ADVICE}")
     if sensor is not None and record["sensor"] != sensor:
         raise TouchError(f"{path} is of {record['sensor']}, this sensor is {sensor}; {ADVICE}")
-    return SlipCalibration(**record)
+    try:
+        datetime.date.fromisoformat(record["date"])
+    except ValueError:
+        raise TouchError(f"{path}: date is {record['date'][:40]!r}; {ADVICE}") from None
+    found = SlipCalibration(**record)
+    most = slip_model(found.sensor).threshold + MAX_RAISE + MARGIN
+    if found.threshold > most:
+        raise TouchError(
+            f"{path}: threshold is {found.threshold:g}, at most {most:g} is one of {found.sensor}; "
+            f"{ADVICE}"
+        )
+    return found
+
+
+def load_unit_slip(
+    path: Path, *, sensor: str | None, unit: str, today: datetime.date
+) -> SlipCalibration:
+    """Read the calibration of a unit, and refuse another one's, an old one and one of the future.
+
+    Args:
+        path: Its file.
+        sensor: Name of the sensor's model; None takes any.
+        unit: Name of the unit.
+        today: Present day.
+
+    Raises:
+        TouchError: As ``load_slip_calibration``, or one of these.
+    """
+    found = load_slip_calibration(path, sensor)
+    if found.unit != unit:
+        raise TouchError(f"{path} is of unit {found.unit!r}, this one is {unit!r}; {ADVICE}")
+    age_days = (today - datetime.date.fromisoformat(found.date)).days
+    if not 0 <= age_days <= MAX_AGE_DAYS:
+        raise TouchError(
+            f"{path} is {age_days} days old, expected 0 to {MAX_AGE_DAYS:g}: {ADVICE}; if it is "
+            "new, set the clock"
+        )
+    return found

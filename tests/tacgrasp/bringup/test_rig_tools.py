@@ -66,6 +66,16 @@ def test_what_is_wrong_is_told_with_what_to_do(tmp_path, capsys):
     assert lines[-1].endswith("the rig is not fit to run")
 
 
+def test_a_slip_calibration_that_a_run_refuses_is_told(tmp_path, capsys):
+    rig = yaml.safe_load((ROOT / "tacgrasp" / "rigs" / "sim.yaml").read_text())
+    path = tmp_path / "mine.yaml"
+    path.write_text(yaml.safe_dump(rig | {"slip_calibration": "none.json"}))
+    assert main(["doctor", "--rig", str(path)]) == 1
+    (line,) = (x for x in capsys.readouterr().out.splitlines() if "slip calibration" in x)
+    assert " NOT OK " in line
+    assert "tacgrasp calibrate slip" in line
+
+
 # -- emulate -----------------------------------------------------------------------------------
 
 

@@ -1,5 +1,6 @@
 """A unit's slip calibration: its noise, its threshold, and its file."""
 
+import datetime
 import json
 from dataclasses import replace
 
@@ -13,6 +14,7 @@ from cltp.tactile.shear.slip_calibration import (
     MARGIN,
     calibrate_slip,
     load_slip_calibration,
+    load_unit_slip,
     save_slip_calibration,
 )
 from tests.cltp.tactile.shear.test_slip import field_of
@@ -63,6 +65,8 @@ def test_a_hold_of_nothing_is_refused():
         ({"threshold": "high"}, "threshold is 'high'"),
         ({"threshold": -99.0}, "above the largest score"),
         ({"along_mm": -1.0}, "noise of 0 or more"),
+        ({"date": "long ago"}, "date is 'long ago'"),
+        ({"threshold": 1e6}, "threshold is 1e"),
     ],
 )
 def test_a_file_that_is_not_one_of_this_sensor_is_refused(found, tmp_path, change, message):
@@ -71,6 +75,19 @@ def test_a_file_that_is_not_one_of_this_sensor_is_refused(found, tmp_path, chang
     path.write_text(json.dumps(json.loads(path.read_text()) | change))
     with pytest.raises(TouchError, match=message):
         load_slip_calibration(path, "taxels")
+
+
+@pytest.mark.parametrize(
+    ("unit", "days", "message"),
+    [("another", 0, "of unit 'u', this one is 'another'"), ("u", 181, "181 days"), ("u", -1, "-1")],
+)
+def test_another_unit_s_an_old_and_a_future_one_are_refused(found, tmp_path, unit, days, message):
+    path, day = tmp_path / "c.json", datetime.date.fromisoformat(NAMED["date"])
+    save_slip_calibration(path, found)
+    assert load_unit_slip(path, sensor="taxels", unit="u", today=day) == found
+    today = day + datetime.timedelta(days=days)
+    with pytest.raises(TouchError, match=message):
+        load_unit_slip(path, sensor="taxels", unit=unit, today=today)
 
 
 @pytest.mark.parametrize("content", [None, b"", b"{", b"\xff"])
