@@ -15,7 +15,7 @@ from primitives.devices import GripperState, Pose
 from primitives.execution import PadAxes
 from tacgrasp.base.stop_signals import until_ctrl_c
 from tacgrasp.config.schema import RunConfig
-from tacgrasp.episodes import Episode
+from tacgrasp.episodes import Episode, EpisodeHeader
 from tacgrasp.rig.protocols import CameraSensor, Rig, TactileSensor
 from tacgrasp.viewer.scene import APPLICATION, RerunScene
 
@@ -36,6 +36,11 @@ def show_episode(episode: Episode, stream: rr.RecordingStream) -> int:
     return len(episode.steps)
 
 
+def recording_id(header: EpisodeHeader) -> str:
+    """Name of an episode's recording: rerun merges those of one name."""
+    return f"{header.task} {header.stamp.wall_s:.6f} {header.seed}"
+
+
 def write_rrd(episode: Episode, path: Path) -> None:
     """Write an episode as a file of rerun, with its layout.
 
@@ -45,7 +50,7 @@ def write_rrd(episode: Episode, path: Path) -> None:
     import rerun
 
     path.touch()  # an error of the disk is raised here
-    stream = rerun.RecordingStream(APPLICATION, recording_id=episode.header.task)
+    stream = rerun.RecordingStream(APPLICATION, recording_id=recording_id(episode.header))
     stream.save(path)
     show_episode(episode, stream)
     stream.flush()
