@@ -117,7 +117,7 @@ class Line:
         speed: float,
         acceleration: float,
     ) -> None:
-        """Plan the line; speed [m/s] and acceleration [m/s²], in rad where the tool only turns.
+        """Plan the line; speed [m/s] and acceleration [m/s²], in rad where the turn is longer.
 
         Raises:
             ValueError: A number is not finite, or speed or acceleration is not within ``RATES``.
@@ -129,7 +129,7 @@ class Line:
         checked_rate(acceleration)
         self._start, self._end = start, ToolState(position_m, rotation, AT_REST)
         self._by = start.path_to(position_m, rotation)
-        self._length = norm(self._by[:3]) or norm(self._by[3:])
+        self._length = max(norm(self._by[:3]), norm(self._by[3:]))
         self._acceleration = acceleration
         self._top = min(speed, math.sqrt(self._length * acceleration))
         self._ramp_s = self._top / acceleration

@@ -57,8 +57,13 @@ def distance_m(a: Sequence[float], b: Sequence[float]) -> float:
 
 
 def expected_duration_s(command: CommandRecord, present: Sequence[float]) -> float:
-    """Duration of a move on its trapezoid [s]; radians count like metres, as on a UR."""
-    length = distance_m(command.pose, present) or turn_between_rad(command.pose[3:], present[3:])
+    """Duration of a move on its trapezoid [s]: of its way [m] or its turn [rad], if that is longer.
+
+    Radians count like metres, as in a turn on the spot. A UR may turn faster along a way, so that
+    this is no less than the move takes.
+    """
+    turn_rad = turn_between_rad(command.pose[3:], present[3:])
+    length = max(distance_m(command.pose, present), turn_rad)
     top = min(command.speed_m_s, math.sqrt(length * command.acceleration_m_s2))
     return 0.0 if top == 0 else length / top + top / command.acceleration_m_s2
 

@@ -105,6 +105,13 @@ def test_a_line_takes_the_time_of_its_trapezoid_and_ends_at_its_target():
     assert not line.at(9).twist.any()
 
 
+def test_a_line_of_a_micrometre_takes_the_time_of_its_turn():
+    turned = matrix(np.array([0.0, 0.0, 0.4]))
+    line = Line(place(), np.array([1e-6, 0.0, 0.0]), turned, 0.1, 1.0)
+    assert line.duration_s == pytest.approx(4.1)
+    assert line.at(2.0).twist[5] == pytest.approx(0.1)
+
+
 def test_a_short_line_never_reaches_its_speed():
     line = Line(place(), np.array([0.001, 0.0, 0.0]), np.eye(3), 0.4, 2.5)
     assert line.duration_s == pytest.approx(2 * math.sqrt(0.001 / 2.5))

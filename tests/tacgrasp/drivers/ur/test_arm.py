@@ -559,6 +559,13 @@ def test_the_expected_time_is_that_of_the_trapezoid():
     assert expected_duration_s(move_command(), move_command().pose) == 0.0
 
 
+@pytest.mark.parametrize("way_m", [0.0, 1e-6, 0.001])
+def test_the_expected_time_is_no_less_than_that_of_the_turn(way_m):
+    here = (START_M[0] - way_m, *START_M[1:], DOWN_RAD[0] - 0.4, *DOWN_RAD[1:])
+    turn = move_command(pose=(*START_M, *DOWN_RAD), speed_m_s=0.1, acceleration_m_s2=1.0)
+    assert expected_duration_s(turn, here) == pytest.approx(4.1)
+
+
 def test_half_a_turn_has_two_rotation_vectors_and_no_turn_between_them():
     assert turn_between_rad((math.pi, 0, 0), (-math.pi, 0, 0)) == pytest.approx(0, abs=1e-7)
     assert turn_between_rad((0.3, 0, 0), (0, 0, 0)) == pytest.approx(0.3)
