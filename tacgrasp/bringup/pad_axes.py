@@ -59,13 +59,16 @@ def find_pad_axes(
     it has failed itself. The object must keep its place while the gripper is open.
 
     Raises:
-        UsageError: ``clear_mm`` is not a positive number; nothing has moved.
+        UsageError: ``clear_mm`` leaves no room for the steps; nothing has moved.
         TouchError: No contact, a contact cut off by the pad's edge, or a shift that fits no pad.
         LimitError: A step would leave the workspace; nothing has moved.
         RobotError: The gripper is not open, and nothing has moved; or a device failed.
     """
-    if not (math.isfinite(clear_mm) and clear_mm > 0):
-        raise UsageError(f"--clear-mm must be a number above 0, got {clear_mm}")
+    if not (math.isfinite(clear_mm) and clear_mm > 2 * STEP_MM):
+        raise UsageError(
+            f"--clear-mm must be above {2 * STEP_MM:g}, since the arm steps {STEP_MM:g} mm to both "
+            f"sides past the object; got {clear_mm}"
+        )
     start, steps = rig.arm.pose(), STEP_MM * np.vstack([np.eye(3), -np.eye(3)])
     targets = [
         replace(start, position_m=start.position_m + 1e-3 * rotate(start.rotvec_rad, step))

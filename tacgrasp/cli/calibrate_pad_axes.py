@@ -26,7 +26,7 @@ class CalibratePadAxesFlags:
     Attributes:
         rig: Name of a rig, or path of its YAML file; its devices move.
         force_n: Force of every grip [N]; the rig's first force if omitted.
-        clear_mm: Distance by which the gripper opens between grips [mm].
+        clear_mm: Distance by which the gripper opens between grips [mm], above 4.
         object: Object between the fingers of a simulated or emulated rig.
         seed: Random seed of the simulated or emulated world.
         right: Axis of the TCP that points to the pad's right, like +x.
@@ -35,7 +35,7 @@ class CalibratePadAxesFlags:
 
     rig: str | None = None
     force_n: float | None = None
-    clear_mm: float = 4.0
+    clear_mm: float = 6.0
     object: str = "cherry_tomato"
     seed: int = 0
     right: str = ""

@@ -69,7 +69,7 @@ def test_steps_in_a_plane_are_not_enough():
 def test_on_a_rig_the_axes_are_found_and_the_arm_is_back_with_the_gripper_open():
     rig = build("cherry_tomato", 3, start_offset_mm=(0, 0), gripper_force_gain=1.0)
     reports = []
-    measured = find_pad_axes(rig, limits(), force_n=1.0, clear_mm=4.0, report=reports.append)
+    measured = find_pad_axes(rig, limits(), force_n=1.0, clear_mm=6.0, report=reports.append)
     assert measured.axes.x_tcp == rig.pad_x_in_tcp
     assert measured.axes.y_tcp == rig.pad_y_in_tcp
     assert len(reports) == 7
@@ -80,20 +80,20 @@ def test_on_a_rig_the_axes_are_found_and_the_arm_is_back_with_the_gripper_open()
 def test_without_a_contact_it_says_what_to_put_there():
     rig = build("cherry_tomato", 3, start_offset_mm=(60, 60))
     with pytest.raises(TouchError, match=r"is missing; put something small and firm"):
-        find_pad_axes(rig, limits(), force_n=1.0, clear_mm=4.0, report=lambda _: None)
+        find_pad_axes(rig, limits(), force_n=1.0, clear_mm=6.0, report=lambda _: None)
 
 
 def test_a_step_out_of_the_workspace_is_refused_before_anything_moves():
     rig = build("cherry_tomato", 3, start_offset_mm=(0, 0))
     with pytest.raises(LimitError, match="would leave the workspace"):
-        find_pad_axes(rig, limits(0.199), force_n=1.0, clear_mm=4.0, report=lambda _: None)
+        find_pad_axes(rig, limits(0.199), force_n=1.0, clear_mm=6.0, report=lambda _: None)
     assert not rig.gripper.state().closed
 
 
-@pytest.mark.parametrize("clear_mm", [0.0, -1.0, float("nan"), float("inf")])
-def test_no_finger_closes_that_could_not_be_opened_again(clear_mm):
+@pytest.mark.parametrize("clear_mm", [0.0, -1.0, 4.0, float("nan"), float("inf")])
+def test_no_finger_closes_that_is_not_opened_beyond_the_steps(clear_mm):
     rig = build("cherry_tomato", 3, start_offset_mm=(0, 0))
-    with pytest.raises(UsageError, match="--clear-mm must be a number above 0"):
+    with pytest.raises(UsageError, match="--clear-mm must be above 4, since the arm steps 2 mm"):
         find_pad_axes(rig, limits(), force_n=1.0, clear_mm=clear_mm, report=lambda _: None)
     assert not rig.gripper.state().closed
 
@@ -106,7 +106,7 @@ def test_a_sensor_that_fails_leaves_the_gripper_open(monkeypatch):
 
     monkeypatch.setattr(rig.sensor, "read", fail)
     with pytest.raises(TouchError, match="unplugged"):
-        find_pad_axes(rig, limits(), force_n=1.0, clear_mm=4.0, report=lambda _: None)
+        find_pad_axes(rig, limits(), force_n=1.0, clear_mm=6.0, report=lambda _: None)
     assert not rig.gripper.state().closed
 
 
@@ -119,7 +119,7 @@ def test_ctrl_c_in_a_grip_leaves_the_gripper_open(monkeypatch):
 
     monkeypatch.setattr(SimGripper, "grip", interrupted)
     with pytest.raises(KeyboardInterrupt):
-        find_pad_axes(rig, limits(), force_n=1.0, clear_mm=4.0, report=lambda _: None)
+        find_pad_axes(rig, limits(), force_n=1.0, clear_mm=6.0, report=lambda _: None)
     assert rig.truth().force_n == 0.0
 
 
