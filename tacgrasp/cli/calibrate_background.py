@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from tacgrasp.base.errors import UsageError
+from tacgrasp.base.result_file import check_kept
 
 
 @dataclass(frozen=True)
@@ -20,7 +21,8 @@ class CalibrateBackgroundFlags:
         unit: Name of this unit in the rig's file.
         device: Camera: its path under /dev/v4l/by-id, or its index.
         images: Folder of frames of the untouched gel, in place of a camera.
-        out: File to write, a .png.
+        out: File to write, a .png; an earlier background is replaced.
+        overwrite: Replace any other picture, too.
         frames: Number of frames to average.
         crop_share: Fraction cut off on each side of a frame, as in the rig's file.
     """
@@ -29,6 +31,7 @@ class CalibrateBackgroundFlags:
     device: str | None = None
     images: Path | None = None
     out: Path = Path("background.png")
+    overwrite: bool = False
     frames: int = 20
     crop_share: float = 1 / 7
 
@@ -40,13 +43,17 @@ def run(flags: CalibrateBackgroundFlags) -> None:
     if flags.out.suffix.lower() != ".png" or not flags.out.parent.is_dir():
         raise UsageError(f"--out must be a .png in a folder that exists, got {flags.out}")
 
+    if (flags.device is None) == (flags.images is None):
+        raise UsageError("give one of --device and --images")
+
     from pydantic import ValidationError
 
     from tacgrasp.console import make_console
-    from tacgrasp.drivers.gelsight.background import save_background
+    from tacgrasp.drivers.gelsight.background import is_background, save_background
     from tacgrasp.drivers.gelsight.connect import take_background
     from tacgrasp.drivers.gelsight.settings import GelSightSettings
 
+    check_kept(flags.out, overwrite=flags.overwrite or is_background(flags.out))
     device = flags.device
     try:
         settings = GelSightSettings(

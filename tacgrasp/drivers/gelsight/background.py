@@ -114,6 +114,17 @@ def mismatch(frame: Frame, background: Frame) -> str:
     return ""
 
 
+def is_background(path: Path) -> bool:
+    """Whether a file is a background with our record, which a new one may replace."""
+    from PIL import Image
+
+    try:
+        with Image.open(path) as image:
+            return _KEY in getattr(image, "text", {})
+    except (OSError, ValueError, SyntaxError, Image.DecompressionBombError):
+        return False
+
+
 def save_background(path: Path, background: Background) -> None:
     """Write a background, whole or not at all.
 

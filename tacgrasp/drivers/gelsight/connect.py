@@ -16,7 +16,7 @@ from cltp.tactile.sensors import SensorSpec, sensor_named
 from tacgrasp.drivers.check import Finding, finding, read_durations_ms
 from tacgrasp.drivers.force_scale import force_scale_of
 from tacgrasp.drivers.gelsight.background import Background, average_frames, load_background
-from tacgrasp.drivers.gelsight.cameras import FrameSource, make_source
+from tacgrasp.drivers.gelsight.cameras import FrameSource, frame_problem, make_source
 from tacgrasp.drivers.gelsight.capture_thread import CapturedFrame, CaptureThread
 from tacgrasp.drivers.gelsight.sensor import GelSightMini
 from tacgrasp.drivers.gelsight.settings import GelSightSettings
@@ -103,7 +103,7 @@ def take_background(
     """Average frames of the gel, which nothing may touch, for ``save_background``.
 
     Raises:
-        TouchError: The source can't be read, or the picture isn't still.
+        TouchError: The source can't be read, shows no gel, or the picture isn't still.
     """
     sensor = sensor_named(settings.sensor)
     open_source = partial(opener, settings, sensor)
@@ -112,10 +112,18 @@ def take_background(
     else:
         source = open_source()
         try:
-            frames = [source.next_frame() for _ in range(num_frames)]
+            frames = [_good_frame(source, settings) for _ in range(num_frames)]
         finally:
             source.close()
     return average_frames(frames, sensor, settings.unit, now())
+
+
+def _good_frame(source: FrameSource, settings: GelSightSettings) -> Frame:
+    """The next image of a recording; a camera's are checked as they come."""
+    frame = source.next_frame()
+    if problem := frame_problem(frame):
+        raise TouchError(f"{settings.source}: {problem}; no background was taken")
+    return frame
 
 
 def _camera_frames(

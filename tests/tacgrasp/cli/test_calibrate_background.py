@@ -41,8 +41,8 @@ def test_what_can_not_be_taken_is_one_line(images, tmp_path, capsys):
         (("--images", images, "--frames", 5), "has ended after 4"),
         (("--images", images, "--frames", 1), "--frames must be 2"),
         (("--device", tmp_path / "camera"), "no camera"),
-        ((), "give one of device, video and images"),
-        (("--images", images, "--device", "0"), "give one of device"),
+        ((), "give one of --device and --images"),
+        (("--images", images, "--device", "0"), "give one of --device and --images"),
         (("--images", images, "--crop-share", "0.7"), "crop_share"),
     ]:
         assert calibrate("--unit", "mine", "--out", out, *flags) != 0
@@ -50,3 +50,27 @@ def test_what_can_not_be_taken_is_one_line(images, tmp_path, capsys):
         assert message in error and len(error.splitlines()) == 1
     assert not out.exists()
     assert calibrate("--unit", "mine", "--images", images, "--out", tmp_path / "x.jpg") == 2
+
+
+def test_an_earlier_background_is_replaced_and_another_picture_kept(images, tmp_path, capsys):
+    out = tmp_path / "background.png"
+    flags = ("--images", images, "--unit", "mine", "--frames", 4, "--out", out)
+    assert calibrate(*flags) == 0
+    assert calibrate(*flags) == 0
+    Image.new("RGB", (9, 9)).save(out)
+    mine = out.read_bytes()
+    assert calibrate(*flags) == 2
+    assert "exists and is kept; give --overwrite" in capsys.readouterr().err
+    assert out.read_bytes() == mine
+    assert calibrate(*flags, "--overwrite") == 0
+
+
+def test_over_exposed_images_make_no_background(tmp_path, capsys):
+    for number in range(2):
+        Image.new("RGB", (320, 240), (255, 255, 255)).save(tmp_path / f"{number}.png")
+    out = tmp_path / "made" / "background.png"
+    out.parent.mkdir()
+    flags = ("--images", tmp_path, "--unit", "mine", "--frames", 2, "--out", out)
+    assert calibrate(*flags) != 0
+    assert "over-exposed" in capsys.readouterr().err
+    assert not out.exists()
