@@ -98,12 +98,16 @@ def parse_date(text: str) -> datetime.date:
     """Date of a flag; today for an empty text.
 
     Raises:
-        UsageError: No date in the form 2026-01-31.
+        UsageError: No date in the form 2026-01-31, or one after today.
     """
+    today = datetime.date.today()
     try:
-        return datetime.date.fromisoformat(text) if text else datetime.date.today()
+        date = datetime.date.fromisoformat(text) if text else today
     except ValueError:
         raise UsageError(f"--date must be like 2026-01-31, got {text}") from None
+    if date > today:
+        raise UsageError(f"--date {text} is after today ({today}); give the day of the readings")
+    return date
 
 
 def _measured(

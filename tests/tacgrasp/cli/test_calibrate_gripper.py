@@ -175,6 +175,7 @@ def test_ctrl_c_under_a_current_opens_the_fingers_or_says_that_they_may_hold(
     [
         (["--steps", "2"], "--steps must be 3 to 50, got 2"),
         (["--date", "today"], "--date must be like 2026-01-31, got today"),
+        (["--date", "2999-01-01"], "--date 2999-01-01 is after today"),
         (["--out", "/none/gripper.yaml"], "/none is no folder"),
         (["--readings", "/none.csv"], "--readings /none.csv: expected a CSV file"),
     ],
