@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import zipfile
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -246,10 +247,12 @@ def run(request: PressRequest) -> None:
     """Press an object, print the figures, and write them to the request's file, if any.
 
     Raises:
-        UsageError: As ``press``, or the file can't be written or is not called .npz.
+        UsageError: As ``press``, or the file can't be written, is not called .npz, or another than
+            an earlier press stands there.
     """
     if request.out is not None:
         check_ending(request.out, ".npz")
+        _check_replaceable(request.out)
     result = press(request)
     area_mm2 = result.state.area_fraction * result.sensor.area_mm2
     pixels = int((result.pressure_kpa > 0).sum())
@@ -273,6 +276,21 @@ def run(request: PressRequest) -> None:
     if request.out is not None:
         _write(request.out, request, result)
         console.print(f"written   {request.out}")
+
+
+def _check_replaceable(out: Path) -> None:
+    """Refuse to replace what is no earlier press, as a measured map."""
+    if not out.is_file() or not out.stat().st_size:
+        return
+    try:
+        with zipfile.ZipFile(out) as file:
+            names = {name.removesuffix(".npy") for name in file.namelist()}
+    except (OSError, zipfile.BadZipFile):
+        names = set()
+    if not names >= {"height_mm", "pressure_kpa", "force_n", "depth_mm", "caption"}:
+        raise UsageError(
+            f"--out {out} exists and is no earlier press, so it is not replaced; name another file"
+        )
 
 
 def _write(out: Path, request: PressRequest, result: PressResult) -> None:

@@ -169,5 +169,16 @@ def test_a_file_that_can_t_be_written_leaves_nothing_behind(tmp_path, capsys):
     assert [path.name for path in tmp_path.iterdir()] == ["a.npz"]
 
 
+def test_an_earlier_press_is_replaced_and_a_measured_map_kept(tmp_path, capsys):
+    made, measured = tmp_path / "a.npz", tmp_path / "mine.npz"
+    for _ in range(2):
+        assert main([*BALL, "--grid", "80x60", "--out", str(made)]) == 0
+    np.savez(measured, height_mm=np.zeros((60, 80)))
+    before = measured.read_bytes()
+    assert main([*BALL, "--grid", "80x60", "--out", str(measured)]) == 2
+    assert "is no earlier press, so it is not replaced" in capsys.readouterr().err
+    assert measured.read_bytes() == before
+
+
 def test_the_help_names_every_sensor():
     assert all(name in PressRequest.__doc__ for name in SENSORS)
