@@ -159,7 +159,7 @@ def read_readings(path: Path) -> Sequence[ForceReading]:
     """
     expected = "expected a CSV file with the columns current_ma and force_n"
     try:
-        with path.open(encoding="utf-8", newline="") as file:
+        with path.open(encoding="utf-8-sig", newline="") as file:
             rows = csv.DictReader(file)
             if not {"current_ma", "force_n"} <= set(rows.fieldnames or ()):
                 raise RobotError(f"{expected}, got {rows.fieldnames}")

@@ -154,6 +154,8 @@ def test_readings_are_read_from_csv(tmp_path):
     path = tmp_path / "readings.csv"
     path.write_text("force_n,current_ma,note\n0.4,60,\n1.4,110,steady\n")
     assert read_readings(path) == readings((60, 0.4), (110, 1.4))
+    path.write_text("current_ma,force_n\n60,0.4\n", encoding="utf-8-sig")  # as from Excel
+    assert read_readings(path) == readings((60, 0.4))
 
 
 @pytest.mark.parametrize(
