@@ -255,12 +255,15 @@ def _contact(
     path = source.folder / cells["file"]
     if not path.resolve().is_relative_to(source.folder.resolve()):
         raise RowError(f"lies outside of the folder {source.folder}; copy it there")
-    heights = read_heights(
-        path,
-        sensor,
-        background=source.background,
-        calibration=source.calibration,
-    )
+    try:
+        heights = read_heights(
+            path,
+            sensor,
+            background=source.background,
+            calibration=source.calibration,
+        )
+    except OSError as error:
+        raise RowError(f"can't be read: {error.strerror or error}") from None
     lowest, highest = float(heights.min()), float(heights.max())
     if -lowest > max(highest, RISEN_MM):
         raise RowError(

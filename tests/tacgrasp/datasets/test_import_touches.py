@@ -132,6 +132,17 @@ def test_what_a_person_may_have_estimated_is_no_bad_row(labels, touches):
     assert imported(touches, f"file,depth,area\nmap.npy,{labels}\n")[0] == 0
 
 
+def test_a_file_that_can_not_be_read_is_a_bad_row(touches, capsys):
+    name = "a" * 300 + ".npy"  # longer than a name may be
+    code, out = imported(touches, f"file\n{name}\n")
+    assert code == 2
+    said = capsys.readouterr().err
+    assert "1 of 1 rows are bad" in said
+    assert "too long" in said
+    assert "--out" not in said
+    assert not out.exists()
+
+
 def test_all_bad_rows_are_told_at_once(touches, capsys):
     code, _ = imported(touches, "file,shape\nmap.npy,blob\ncloud.npz,sphere\ngone.npy,\n")
     assert code == 2
