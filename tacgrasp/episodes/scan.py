@@ -30,8 +30,8 @@ from mcap.writer import MCAP0_MAGIC
 from tacgrasp.episodes.errors import EpisodeError
 
 MAX_BYTES = 128_000_000
-"""Most bytes of a file, and of what its chunks hold: 1,700 steps of the simulated sensor's 4,800
-points, 107 of a GelSight Mini's 76,800. Our choice, so that a crafted file can't fill the memory:
+"""Most bytes of a file, and of what its chunks hold: 1,400 steps of the simulated sensor's 4,800
+points, 106 of a GelSight Mini's 76,800. Our choice, so that a crafted file can't fill the memory:
 an episode is read as a whole. A task has 25 actions unless it asks for more; the writer refuses a
 step beyond."""
 
