@@ -23,7 +23,7 @@ from tests.paths import ROOT
 
 
 def words_before_the_kill(folder: Path, kind: str, after_s: float) -> list[int]:
-    """What a recording acknowledged that was killed ``after_s`` [s] after it was ready."""
+    """What a recording acknowledged that was killed ``after_s`` [s] after its first step."""
     theirs, ours = os.pipe()
     command = [sys.executable, "-m", "tests.fakes.killed_recording", kind, str(folder), str(ours)]
     with (folder / "output.txt").open("wb") as output:
@@ -31,8 +31,7 @@ def words_before_the_kill(folder: Path, kind: str, after_s: float) -> list[int]:
     os.close(ours)
     try:
         received = b""
-        # a whole run is in mid-episode after its first step, not before
-        while len(received) < (2 if kind == "run" else 1) * WORD.size:
+        while len(received) < 2 * WORD.size:  # that it is ready, and its first step
             more = os.read(theirs, WORD.size)
             assert more, (folder / "output.txt").read_text(errors="replace")
             received += more
