@@ -65,9 +65,8 @@ from tacgrasp.lessons.dialogue.query import (
     read_query,
 )
 from tacgrasp.lessons.dialogue.rules.advised import advised, step_asked
-from tacgrasp.lessons.dialogue.rules.elsewhere import of_elsewhere
+from tacgrasp.lessons.dialogue.rules.elsewhere import of_elsewhere, of_gripper, of_outcome
 from tacgrasp.lessons.dialogue.rules.friction import frictional
-from tacgrasp.lessons.dialogue.rules.gripper import of_gripper, of_outcome
 from tacgrasp.lessons.dialogue.rules.members import member_of, verdict_of
 from tacgrasp.lessons.dialogue.rules.regions import of_region
 from tacgrasp.lessons.dialogue.rules.reported import reported

@@ -17,7 +17,6 @@ from pathlib import Path
 
 from cltp.atomic_write import write_atomically
 from cltp.errors import TouchError
-from cltp.sensing.force_calibration import MAX_AGE_DAYS
 from cltp.tactile.shear.contact_shear import ShearWatch
 from cltp.tactile.shear.field import ShearField
 from cltp.tactile.shear.slip import SlipJudge, noise_of, slip_model
@@ -31,6 +30,9 @@ MARGIN = 0.5
 MAX_RAISE = 6.0
 """Most that a threshold may stand above the model's. Our choice: more is a broken sensor, or an
 object that moved."""
+
+MAX_AGE_DAYS = 180.0
+"""Largest age [days]; as of force calibrations, since gels wear. Our choice."""
 
 ADVICE = "calibrate: tacgrasp calibrate slip"
 _MAX_BYTES = 10_000

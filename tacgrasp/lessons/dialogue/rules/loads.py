@@ -1,15 +1,24 @@
-"""Questions that name masses: a named force for one, and several masses at once.
+"""Questions that name masses or several objects: a named force for one, and several at once.
 
 Is 0.5 N ok for 30 g?                   check needed #2 g <= #1 N.
 Will 30 g slip at 0.5 N?                check needed #1 g > #2 N.
 Would it hold 10 g and 50 g?            check stays #1 g; check stays #2 g.
 How much force for 10 g and 50 g?       amount needed #1 g N; amount needed #2 g N.
 How many grams does it hold?            amount holds g.
+Would two of these be held?             force_n >= gram_n * 2 * mass_g
+Would half its mass slip?               force_n < gram_n * 0.5 * mass_g
+By how many grams is it too heavy?      mass_g - holds_g
+
+A count is no mass: 'would it hold two?' is not about 2 g.
+
+Not here: the multiple of a supposed mass (``tacgrasp.lessons.dialogue.calculations``).
 """
 
 from __future__ import annotations
 
 import re
+
+from tacgrasp.lessons.dialogue.calculations.quantity_names import THING
 
 _FORCE_UNITS = {"n": "N", "newton": "N", "newtons": "N", "mn": "mN", "millinewtons": "mN"}
 _MASS_UNITS = {"g": "g", "gram": "g", "grams": "g", "kg": "kg", "kilo": "kg", "kilos": "kg",
@@ -136,3 +145,91 @@ def _are_listed(words: str) -> bool:
     return re.search(r"#(?: \w+)?(?: (?:(?:and|or|an?|the) )*#(?: \w+)?)+", words) is not None and (
         re.search(r"\b(?:more|less|plus|minus|over|under)\b", words) is None
     )
+
+
+_COUNTS = {
+    "two": 2, "three": 3, "four": 4, "five": 5, "six": 6, "seven": 7, "eight": 8, "nine": 9,
+    "ten": 10, "a dozen": 12, "a pair": 2, "both": 2,
+}  # fmt: skip
+_TIMES = {"half": 0.5, "a third of": 1 / 3, "a quarter of": 0.25, "twice": 2, "double": 2,
+          "thrice": 3, "triple": 3}  # fmt: skip
+_UNITS = r"(?:newtons|grams|kilos|kilograms|millinewtons|ounces|pounds|times|percent)"
+_MASS = r"(?P<mass>\d+(?:\.\d+)?)[ -]?(?P<unit>kg|g|grams?|kilos?|kilograms?)"
+_THINGS = rf"(?!{_UNITS}\b)[a-z]{{2,}}s\b"
+_ALIKE = r"(?:identical|equal|like|similar)"
+_SEVERAL = (
+    rf"(?P<count>{'|'.join(_COUNTS)}|\d+(?= (?:of|such|{_ALIKE}|{_THINGS}|\d)))"
+    rf"(?: of (?:these|those|them|it)| such)?(?: {_ALIKE})?(?: (?:{_MASS} )?{_THINGS})?"
+)
+"""'Two', 'two of these', '2 such objects', 'three 20 g weights'; '60' leaves out the grams."""
+
+_MULTIPLE = (
+    rf"(?P<times>{'|'.join(_TIMES)}|(?P<number>\d+(?:\.\d+)?|{'|'.join(_COUNTS)}) times) "
+    rf"(?:(?:the|its|this|that) )(?:(?:object|{THING})(?:'s)? )?(?:mass|weight|load)"
+)
+_SEVERAL_HELD = rf"(?:{_SEVERAL}|{_MULTIPLE})"
+_GRIP = r"(?:it|this|that|i|we|you|(?:the|this|that|our|my) (?:grip|gripper|hand|robot|force))"
+_STILL = r"(?: (?:still|also|even|safely|surely|now|be able to))*"
+_AT_ONCE = (
+    r"(?: (?:at once|at (?:the same|one) time|together|altogether|in one go|like this|too|as well|"
+    r"then|now|safely|surely|instead|up|out|away))*"
+)
+_SEVERAL_HOLDS = r"(?:hold|carry|lift|support|take|bear|keep|pick up|manage)"
+_CARRIES = re.compile(
+    rf"(?:would|will|can|could|does|do|may) {_GRIP}{_STILL} {_SEVERAL_HOLDS}"
+    rf"(?: up)? {_SEVERAL_HELD}{_AT_ONCE}"
+)
+_ARE_CARRIED = re.compile(
+    rf"(?:would|will|can|could|are|is|do) {_SEVERAL_HELD}{_STILL} "
+    r"(?:(?:be )?(?:held|carried|lifted|kept|"
+    r"safe|supported)|hold|stay(?: put)?|stick|remain|(?P<slips>slip|fall|drop|slide|be dropped|be "
+    rf"lost)){_AT_ONCE}"
+)
+
+_NEEDED_FOR = re.compile(
+    r"(?:how much|what|which) (?:force|grip|squeeze) (?:(?:is|are|would|will|do|does|should|be|i|"
+    r"we|"
+    r"you|it|need|needs|needed|required|necessary|take|have) )*(?:for|to (?:hold|lift|carry)) "
+    rf"{_SEVERAL_HELD}{_AT_ONCE}"
+)
+_IT = rf"(?:it|this|that|(?:the|this|that|our|my) {THING})"
+_TOO_HEAVY = re.compile(
+    rf"(?:by )?how (?:much|many (?P<unit>grams|kilos|kilograms)) (?:(?:is|are) )?(?:{_IT} )?too "
+    rf"heavy(?: (?:is|are) {_IT})?(?: (?:for|to) .+)?|"
+    r"how (?:much|many (?P<grams>grams|kilos|kilograms)) lighter (?:must|should|would|does|has) "
+    rf"{_IT} (?:(?:have|need) to )?(?:be|become|get)(?: (?:for|to|so|if) .+)?"
+)
+"""'By how many grams is it too heavy?', 'how much lighter must it be?'"""
+
+
+def several_query(question: str) -> str:
+    """The query of a question for several objects, or for what one has too much; '' of others.
+
+    Args:
+        question: The question, as ``tacgrasp.lessons.dialogue.plainer`` leaves it.
+    """
+    words = " ".join(question.lower().replace("’", "'").split()).strip(" ?.!")
+    if heavy := _TOO_HEAVY.fullmatch(words):
+        unit = heavy["unit"] or heavy["grams"] or "grams"
+        return f"calculate mass_g - holds_g in {'g' if unit == 'grams' else 'kg'}."
+    if found := _NEEDED_FOR.fullmatch(words):
+        return f"calculate gram_n * {_factor(found):.6g} * {_each(found)} in N."
+    found = _CARRIES.fullmatch(words) or _ARE_CARRIED.fullmatch(words)
+    if found is None:
+        return ""
+    sign = "<" if found.groupdict().get("slips") else ">="
+    return f"calculate force_n {sign} gram_n * {_factor(found):.6g} * {_each(found)}."
+
+
+def _factor(found: re.Match[str]) -> float:
+    """How many objects are meant, or which multiple of one."""
+    if said := found["count"] or found["number"]:
+        return float(_COUNTS.get(said) or said)
+    return _TIMES[found["times"]]
+
+
+def _each(found: re.Match[str]) -> str:
+    """The mass of one: a number of grams, or that which was told."""
+    if found["mass"] is None:
+        return "mass_g"
+    return f"{float(found['mass']) * (1000 if found['unit'].startswith('k') else 1):.6g}"

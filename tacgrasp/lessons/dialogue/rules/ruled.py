@@ -11,10 +11,9 @@ from tacgrasp.lessons.dialogue.query import asked_text, read_query
 from tacgrasp.lessons.dialogue.rules.bare import bare_query
 from tacgrasp.lessons.dialogue.rules.edges import edge_query
 from tacgrasp.lessons.dialogue.rules.halves import half_query
-from tacgrasp.lessons.dialogue.rules.loads import load_query
+from tacgrasp.lessons.dialogue.rules.loads import load_query, several_query
 from tacgrasp.lessons.dialogue.rules.offsets import offset_query
 from tacgrasp.lessons.dialogue.rules.others import other_query
-from tacgrasp.lessons.dialogue.rules.several_held import several_query
 from tacgrasp.lessons.dialogue.rules.worded import worded_query
 from tacgrasp.lessons.dialogue.written_units import numbers_in_units
 

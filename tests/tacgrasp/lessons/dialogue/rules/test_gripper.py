@@ -2,7 +2,7 @@
 
 import pytest
 
-from tacgrasp.lessons.dialogue.rules.gripper import of_gripper, of_outcome
+from tacgrasp.lessons.dialogue.rules.elsewhere import of_gripper, of_outcome
 from tacgrasp.lessons.understanding import understood_by_grammar
 
 

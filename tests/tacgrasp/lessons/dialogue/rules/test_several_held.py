@@ -3,7 +3,7 @@
 import pytest
 
 from tacgrasp.lessons.answering import answered
-from tacgrasp.lessons.dialogue.rules.several_held import several_query
+from tacgrasp.lessons.dialogue.rules.loads import several_query
 from tacgrasp.lessons.dialogue.written_units import numbers_in_units
 from tacgrasp.lessons.understanding import understood_by_grammar
 from tests.fakes.question_scenes import HELD
