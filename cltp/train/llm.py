@@ -22,6 +22,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import takewhile
 from pathlib import Path
 from typing import NamedTuple, Protocol
 
@@ -209,14 +210,12 @@ def train_llm(
         schedules = STAGES if start is None else FINE_TUNING
         if language is not None:
             schedules = {name: s for name, s in schedules.items() if name != "text"}
-    before: list[str] = []  # a stage goes on from what the earlier ones learned
+    schedules = {name: schedules[name] for name in STAGES if name in schedules}
     for number, name in enumerate(STAGES, start=1):
         if name not in schedules:
             continue
         made_of = {key: value for key, value in identity.items() if (name, key) != BEFORE_TOUCH}
-        if before:
-            made_of["before"] = "; ".join(before)
-        before.append(f"{name}: {schedules[name]}")
+        made_of |= earlier(schedules, name)
         model.requires_grad_(False)
         model.projector.requires_grad_(name != "text")
         model.lm.requires_grad_(name != "projector")
@@ -225,6 +224,18 @@ def train_llm(
         save_tac3d_llm(run.out, model.cpu().eval())
     run.workers.wait()
     return run.out
+
+
+def earlier(schedules: Mapping[str, Schedule], name: str) -> dict[str, str]:
+    """What a stage goes on from, for its identity: the stages before it, with their schedules.
+
+    Args:
+        schedules: The stages of a training in their order.
+        name: The stage.
+    """
+    before = takewhile(lambda each: each != name, schedules)
+    text = "; ".join(f"{each}: {schedules[each]}" for each in before)
+    return {"before": text} if text else {}
 
 
 class _Sample(NamedTuple):

@@ -25,7 +25,7 @@ from cltp.errors import TouchError
 from cltp.llm.adapter import require_peft, with_adapter
 from cltp.llm.causal_lm import Language, load_language
 from cltp.llm.tac3d_llm import Projector, Tac3dLlm
-from cltp.train.llm import ExchangeLearner, Lessons
+from cltp.train.llm import ExchangeLearner, Lessons, earlier
 from cltp.train.recipes import StockRecipe
 from cltp.train.stage import Stage, TrainingRun
 
@@ -112,7 +112,8 @@ def train_stock_llm(
     for number, (name, schedule) in enumerate(recipe.stages.items(), start=1):
         learned = _learned(model, tuned if name == "joint" else [])
         language.lm.train()  # without it, transformers keeps activations; there is no dropout
-        learner.train(Stage(name, run, learned, schedule, identity), number)
+        made_of = identity | earlier(recipe.stages, name)
+        learner.train(Stage(name, run, learned, schedule, made_of), number)
     if run.workers.is_first:
         save_stock_llm(run.out, model.cpu().eval(), base, adapter)
     run.workers.wait()

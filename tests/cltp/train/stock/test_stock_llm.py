@@ -219,6 +219,17 @@ def test_another_base_does_not_continue_a_training(bases: Path, data: Path, tmp_
         train(run, save_stock_lm(tmp_path / "another", "qwen2", seed=1))
 
 
+def test_a_stage_is_refused_behind_one_that_was_trained_otherwise(
+    bases: Path, data: Path, tmp_path: Path
+) -> None:
+    recipe = replace(RECIPE, tune="all")
+    run = new_run(data, tmp_path)
+    train(run, bases / "qwen2", recipe)
+    (tmp_path / ".training/projector.checkpoint").unlink()
+    with pytest.raises(TouchError, match="delete it to start afresh"):
+        train(run, bases / "qwen2", replace(recipe, projector_steps=1))
+
+
 @pytest.mark.parametrize("tune", ["all", "projector"])
 def test_all_or_nothing_of_the_language_model_can_be_trained(
     tune: str, bases: Path, data: Path, tmp_path: Path
