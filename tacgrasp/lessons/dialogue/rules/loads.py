@@ -154,7 +154,7 @@ _COUNTS = {
 _TIMES = {"half": 0.5, "a third of": 1 / 3, "a quarter of": 0.25, "twice": 2, "double": 2,
           "thrice": 3, "triple": 3}  # fmt: skip
 _UNITS = r"(?:newtons|grams|kilos|kilograms|millinewtons|ounces|pounds|times|percent)"
-_MASS = r"(?P<mass>\d+(?:\.\d+)?)[ -]?(?P<unit>kg|g|grams?|kilos?|kilograms?)"
+_MASS = rf"(?P<mass>\d+(?:\.\d+)?)[ -]?(?P<unit>{'|'.join(_MASS_UNITS)})"
 _THINGS = rf"(?!{_UNITS}\b)[a-z]{{2,}}s\b"
 _ALIKE = r"(?:identical|equal|like|similar)"
 _SEVERAL = (
@@ -232,4 +232,4 @@ def _each(found: re.Match[str]) -> str:
     """The mass of one: a number of grams, or that which was told."""
     if found["mass"] is None:
         return "mass_g"
-    return f"{float(found['mass']) * (1000 if found['unit'].startswith('k') else 1):.6g}"
+    return f"{float(found['mass']) * (1000 if _MASS_UNITS[found['unit']] == 'kg' else 1):.6g}"
