@@ -36,8 +36,8 @@ from cltp.checkpoints.weight_files import (
 )
 from cltp.data.sampler import Augmentation, Batch
 from cltp.encoder.encoder import TactileEncoder
+from cltp.encoder.render import render
 from cltp.tactile.point_layout import PointLayout
-from cltp.tactile.render import render
 from cltp.tactile.sensor_noise import NoiseUnit, spread_of
 from cltp.tactile.sensors import SensorSpec
 

@@ -14,9 +14,9 @@ import torch
 from tokenizers import Tokenizer
 from torch import Tensor, nn
 
+from cltp.encoder.render import IMAGE_PX
 from cltp.encoder.strict_loading import load_strictly
 from cltp.errors import TouchError
-from cltp.tactile.render import IMAGE_PX
 from cltp.texts.tokenizer import Words
 
 if TYPE_CHECKING:  # its import takes seconds: only where it is needed

@@ -32,6 +32,7 @@ from cltp.tactile.force_scale import POSSIBLE_RATIO
 from cltp.tactile.measure import contact_state
 from cltp.tactile.noise_levels import WIDE
 from cltp.tactile.point_layout import GRID
+from cltp.tactile.quantiles import quantile
 from cltp.tactile.sensor_noise import MINI_SPREAD, SPREADS
 from cltp.tactile.sensors import SensorSpec
 from cltp.tactile.states import (
@@ -333,4 +334,4 @@ _MOST_FITTED, _FITTED_POINTS = 512, 14
 
 def _spread_mm(noise_mm: NDArray[np.float64]) -> float:
     """Standard deviation of normal noise, by the lower quartile of its absolute values [mm]."""
-    return float(np.quantile(np.abs(noise_mm), 0.25) / 0.3186)
+    return quantile(np.abs(noise_mm), 0.25) / 0.3186

@@ -79,18 +79,14 @@ def readings_of(
     if output.margins is None:
         raise TouchError(WITHOUT_INTERVALS)
     below, above = output.margins.unbind(-1)
-    values, low, high = (
-        restored(ends) for ends in (output.numbers, output.numbers - below, output.numbers + above)
-    )
+    numbers = output.numbers
+    ends = restored(torch.stack([numbers, numbers - below, numbers + above]))
     factors, spreads = (
-        torch.as_tensor(each, dtype=values.dtype, device=values.device) for each in (factor, spread)
+        torch.as_tensor(each, dtype=ends.dtype, device=ends.device) for each in (factor, spread)
     )
-    force, least, most = (factors * ends[:, _FORCE] for ends in (values, low, high))
-    least, most = _widened(force, least, most, TAILS * spreads)
-    values, low, high = (
-        _clipped(torch.cat([ends[:, :_FORCE], own[:, None]], dim=1))
-        for ends, own in ((values, force), (low, least), (high, most))
-    )
+    force, least, most = factors * ends[..., _FORCE]
+    forces = torch.stack([force, *_widened(force, least, most, TAILS * spreads)])
+    values, low, high = _clipped(torch.cat([ends[..., :_FORCE], forces[..., None]], dim=-1))
     return HeadReadings(
         words=tuple(scores.softmax(-1) for scores in output.logits),
         touching=output.touching.sigmoid(),
@@ -110,8 +106,8 @@ def _widened(force: Tensor, low: Tensor, high: Tensor, spread: Tensor) -> tuple[
 
 
 def _clipped(numbers: Tensor) -> Tensor:
-    """Numbers (B, 5) without negative depths, areas and forces, and areas of at most 1."""
+    """Numbers (..., 5) without negative depths, areas and forces, and areas of at most 1."""
     signed = torch.tensor(_SIGNED, device=numbers.device)
     numbers = torch.where(signed, numbers, numbers.clamp(min=0))
-    numbers[:, _AREA].clamp_(max=1)
+    numbers[..., _AREA].clamp_(max=1)
     return numbers

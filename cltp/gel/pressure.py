@@ -22,8 +22,10 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 from cltp.gel.compliance import GelMaterial, layer_kernel
+from cltp.tactile.cells import blurred
 from cltp.tactile.encoder_input import GRID_UNIT_MM, OUTSIDE
 from cltp.tactile.point_layout import GRID
+from cltp.tactile.quantiles import median, quantile, spread_about
 from cltp.tactile.sensors import SENSORS
 
 NOMINAL_GEL = GelMaterial(
@@ -92,7 +94,7 @@ def pressure_features(points: NDArray[np.float32]) -> NDArray[np.float32]:
     if not np.isfinite(heights).all():
         return np.full(NUM_FEATURES, np.nan, np.float32)
     rows, columns = heights.shape
-    smooth = ndimage.gaussian_filter(heights, SMOOTHING, mode="nearest")
+    smooth = blurred(heights, (SMOOTHING, SMOOTHING))
     depth = max(float(np.sort(smooth, axis=None)[-3:].mean()), LEAST_DEPTH_MM)
     zero, spread, free = _surroundings(heights, smooth > LEVELS[0] * depth)
     features = [depth, zero / depth, spread / depth, free, np.log(pitch_mm / (0.2 * BLOCK))]
@@ -128,10 +130,9 @@ def _surroundings(
     """Median height outside of a contact and its rim, its spread, and the fraction of the pad."""
     outside = heights[~ndimage.binary_dilation(contact, _NEIGHBOURS, iterations=RIM)]
     if len(outside) < LEAST_SURROUNDINGS:
-        return float(np.quantile(heights, 0.1)), 0.0, len(outside) / heights.size
-    zero = float(np.median(outside))
-    spread = 1.4826 * float(np.median(np.abs(outside - zero)))
-    return zero, spread, len(outside) / heights.size
+        return quantile(heights, 0.1), 0.0, len(outside) / heights.size
+    zero = median(outside)
+    return zero, spread_about(outside, zero), len(outside) / heights.size
 
 
 def _ring_means(

@@ -113,7 +113,6 @@ class FastDecoder:
         count = len(x)
         start, end = self._length, self._length + count
         cos, sin = self._cos[start:end], self._sin[start:end]
-        mask = self._causal[start:end, :end] if count > 1 and start > 0 else None
         width = (x.shape[1],)
         heads, kv_heads, size = self._heads, self._kv_heads, self._size
         for number, layer in enumerate(self._layers):
@@ -125,20 +124,23 @@ class FastDecoder:
             keys, values = self._keys[number], self._values[number]
             keys[0, :, start:end] = rotated[heads:]
             values[0, :, start:end] = qkv[heads + kv_heads :]
+            # Of the last layer the cache needs all keys and values, nobody the other states.
+            asked = rows if number + 1 == len(self._layers) else count
+            x, first = x[-asked:], end - asked
             mixed = F.scaled_dot_product_attention(
-                rotated[None, :heads],
+                rotated[None, :heads, -asked:],
                 keys[:, :, :end],
                 values[:, :, :end],
-                attn_mask=mask,
-                is_causal=count > 1 and start == 0,
+                attn_mask=self._causal[first:end, :end] if asked > 1 and first > 0 else None,
+                is_causal=asked > 1 and first == 0,
                 enable_gqa=heads != kv_heads,
             )
-            x = x + F.linear(mixed[0].transpose(0, 1).reshape(count, -1), layer.out)
+            x = x + F.linear(mixed[0].transpose(0, 1).reshape(asked, -1), layer.out)
             normed = F.rms_norm(x, width, layer.norm2, self._eps)
             gate, up = F.linear(normed, layer.gate_up).chunk(2, -1)
             x = x + F.linear(F.silu(gate) * up, layer.down)
         self._length = end
-        return F.rms_norm(x[-rows:], width, self._norm, self._eps)
+        return F.rms_norm(x, width, self._norm, self._eps)
 
 
 def _joined(layer: Any) -> _Layer:

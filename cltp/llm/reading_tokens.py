@@ -71,8 +71,7 @@ class ReadingTokens(nn.Module):
 
     def features(self, readings: HeadReadings) -> Tensor:
         """Numbers and the ends of their intervals with sines and cosines of phases: (B, 5, 27)."""
-        parts = []
-        for numbers in (readings.values, readings.low, readings.high):
-            phases = 2 * math.pi * (numbers / self.unit)[..., None] / self.periods
-            parts += [transformed(numbers)[..., None], phases.sin(), phases.cos()]
-        return torch.cat(parts, dim=-1)
+        numbers = torch.stack([readings.values, readings.low, readings.high])
+        phases = 2 * math.pi * (numbers / self.unit)[..., None] / self.periods
+        parts = torch.cat([transformed(numbers)[..., None], phases.sin(), phases.cos()], dim=-1)
+        return parts.permute(1, 2, 0, 3).flatten(2)

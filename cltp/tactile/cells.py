@@ -121,10 +121,26 @@ def smoothed(cells_mm: FloatArray, sensor: SensorSpec, scale_mm: float) -> Float
     )
     known = np.isfinite(cells_mm)
     if known.all():
-        return np.asarray(ndimage.gaussian_filter(cells_mm, sigma, mode="nearest"))
-    weight = ndimage.gaussian_filter(known.astype(np.float64), sigma, mode="nearest")
-    total = ndimage.gaussian_filter(np.where(known, cells_mm, 0.0), sigma, mode="nearest")
-    return np.asarray(total / np.maximum(weight, 1e-6))
+        return blurred(cells_mm, sigma)
+    weight = blurred(known.astype(np.float64), sigma)
+    return np.asarray(blurred(np.where(known, cells_mm, 0.0), sigma) / np.maximum(weight, 1e-6))
+
+
+def blurred(cells: FloatArray, sigma: tuple[float, float]) -> FloatArray:
+    """Cells (H, W) after a Gaussian of so many rows and columns, the edges going on as they are.
+
+    Two products of matrices; a filter that goes along each row takes ten times as long.
+    """
+    rows, columns = (_gaussian(size, each) for size, each in zip(cells.shape, sigma, strict=True))
+    return np.asarray(rows @ cells @ columns.T)
+
+
+@lru_cache(maxsize=64)
+def _gaussian(size: int, sigma: float) -> FloatArray:
+    """What a Gaussian takes of each of a row of cells, (size, size)."""
+    weights = ndimage.gaussian_filter1d(np.eye(size), sigma, axis=0, mode="nearest")
+    weights.setflags(write=False)
+    return weights
 
 
 @lru_cache(maxsize=8)

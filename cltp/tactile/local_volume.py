@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +20,7 @@ from scipy import ndimage
 
 from cltp.tactile.cells import quadratic_basis, smoothed
 from cltp.tactile.cloud import FloatArray, grid_axes_mm
+from cltp.tactile.quantiles import median, quantile, spread_about
 from cltp.tactile.sensor_noise import MINI_SPREAD, SPREADS, drift_in
 from cltp.tactile.sensors import SensorSpec
 
@@ -86,6 +88,7 @@ BULGE = 0.4
 flat punches of 13 to 21 mm, 0.3 mm deep."""
 
 _DEEPEST_CELLS = 3
+_BESIDE = ndimage.generate_binary_structure(2, 1)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -122,7 +125,7 @@ def _local_contact(cells_mm: FloatArray, sensor: SensorSpec, *, is_wide: bool) -
     noise_mm = NOISE_FACTOR * white_noise_mm(cells_mm)
     if is_wide:  # near the strongest response of a flat top is any of its places
         near = np.ones_like(near)
-    background: FloatArray | float = 0.0 if is_wide else float(np.median(cells_mm))
+    background: FloatArray | float = 0.0 if is_wide else median(cells_mm)
     for is_last in (False, True):
         local = cells_mm - background
         depth = float(np.sort(local[near])[-_DEEPEST_CELLS:].mean())
@@ -151,19 +154,22 @@ def without_drift(
         depth_mm: Depth of the contact [mm].
         sensor: The sensor.
     """
+    drift_mm = REACHED_DRIFTS * drift_in(heights_mm, SPREADS.get(sensor.name, MINI_SPREAD))
+    may_be_drift = contact & (heights_mm < drift_mm)
+    if not may_be_drift.any():
+        return contact
     upper = contact & (heights_mm > UPPER_FRACTION * depth_mm)
     rows, columns = contact.shape
     pitch_mm = (sensor.height_mm / rows, sensor.width_mm / columns)
     radius_mm = math.sqrt(np.count_nonzero(upper) * math.prod(pitch_mm) / math.pi)
     distance_mm = ndimage.distance_transform_edt(~upper, sampling=pitch_mm)
-    drift_mm = REACHED_DRIFTS * drift_in(heights_mm, SPREADS.get(sensor.name, MINI_SPREAD))
     is_far = distance_mm > max(FAR_MM, FAR_PART * radius_mm)
-    return np.asarray(contact & ~(is_far & (heights_mm < drift_mm)))
+    return np.asarray(contact & ~(is_far & may_be_drift))
 
 
 def _region_of(cell: int, mask: BoolArray) -> BoolArray:
     """The connected cells of a mask that hold one cell; none where that is not in the mask."""
-    regions, _ = ndimage.label(mask)
+    regions, _ = ndimage.label(mask, _BESIDE)
     return np.asarray(mask & (regions == regions.flat[cell]))
 
 
@@ -177,15 +183,15 @@ def _is_mostly_raised(cells_mm: FloatArray, sensor: SensorSpec) -> bool:
     down, across = np.gradient(smooth, sensor.height_mm / rows, sensor.width_mm / columns)
     stands = smooth > most_mm
     edge = stands & ~ndimage.binary_erosion(stands, border_value=1)
-    return bool(edge.any() and np.median(np.hypot(down, across)[edge]) >= WIDE_SLOPE)
+    return bool(edge.any() and median(np.hypot(down, across)[edge]) >= WIDE_SLOPE)
 
 
 def _keeps_zero(cells_mm: FloatArray, sensor: SensorSpec) -> bool:
     """Whether the median lies further above zero than drift, and a part of the pad does not."""
-    low_mm, median_mm = np.quantile(cells_mm, (LOW_PART, 0.5))
+    low_mm, median_mm = quantile(cells_mm, LOW_PART), median(cells_mm)
     most_mm = _most_zero_mm(sensor)
     least_mm = -max(most_mm, BULGE * median_mm)
-    return bool(median_mm > most_mm and least_mm <= low_mm <= most_mm)
+    return median_mm > most_mm and least_mm <= low_mm <= most_mm
 
 
 def _most_zero_mm(sensor: SensorSpec) -> float:
@@ -202,7 +208,7 @@ def white_noise_mm(heights_mm: FloatArray) -> float:
     inner = heights_mm[1:-1, 1:-1]
     around = heights_mm[:-2, 1:-1] + heights_mm[2:, 1:-1]
     around = around + heights_mm[1:-1, :-2] + heights_mm[1:-1, 2:]
-    return 1.4826 * float(np.median(np.abs(inner - around / 4))) / math.sqrt(1.25)
+    return spread_about(inner - around / 4, 0.0) / math.sqrt(1.25)
 
 
 def _near_strongest(heights_mm: FloatArray, sensor: SensorSpec) -> BoolArray:
@@ -215,12 +221,24 @@ def _near_strongest(heights_mm: FloatArray, sensor: SensorSpec) -> BoolArray:
 
 def _responses(heights_mm: FloatArray, sensor: SensorSpec, scale_mm: float) -> FloatArray:
     """Responses (n, n) of a band filter to heights less a plane [mm]."""
-    everywhere = np.ones_like(heights_mm, dtype=bool)
-    plane = _fitted(quadratic_basis(len(heights_mm), sensor)[:, :3], heights_mm, everywhere)
-    inner, outer = (
-        smoothed(heights_mm - plane, sensor, scale) for scale in (scale_mm, 2 * scale_mm)
-    )
+    above = heights_mm - _fitted_plane(heights_mm, sensor)
+    inner, outer = (smoothed(above, sensor, scale) for scale in (scale_mm, 2 * scale_mm))
     return inner - outer
+
+
+def _fitted_plane(heights_mm: FloatArray, sensor: SensorSpec) -> FloatArray:
+    """The plane nearest to heights (n, n), shape (n, n) [mm]."""
+    basis = quadratic_basis(len(heights_mm), sensor)[:, :3]
+    weights = _plane_weights(len(heights_mm), sensor) @ heights_mm.ravel()
+    return np.asarray((basis @ weights).reshape(heights_mm.shape))
+
+
+@lru_cache(maxsize=8)
+def _plane_weights(n: int, sensor: SensorSpec) -> FloatArray:
+    """What each of n × n heights adds to the weights of the nearest plane, (3, n²)."""
+    weights: FloatArray = np.linalg.pinv(quadratic_basis(n, sensor)[:, :3]).astype(np.float64)
+    weights.setflags(write=False)
+    return weights
 
 
 def _background(

@@ -4,7 +4,7 @@ The light is that of such a sensor: red from the left, green from the top, blue 
 right, each low over the surface, and a weak white one from the camera. Indentations come towards
 the viewer. Pictures are made on demand, never stored.
 
-Not here: the image tower's input (``cltp.tactile.render``), on which trained weights depend.
+Not here: the image tower's input (``cltp.encoder.render``), on which trained weights depend.
 """
 
 from __future__ import annotations

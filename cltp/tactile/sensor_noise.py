@@ -29,6 +29,7 @@ from scipy.fft import dctn, idctn
 
 from cltp.errors import TouchError
 from cltp.tactile.noise_levels import NoiseLevels
+from cltp.tactile.quantiles import median, spread_about
 from cltp.tactile.sensors import SensorSpec
 
 
@@ -130,7 +131,7 @@ def drift_in(cells_mm: NDArray[np.floating], spread: NoiseSpread) -> float:
         cells_mm: Heights in equal cells of the sensing area, none of them empty [mm].
         spread: Noise of the sensor.
     """
-    seen_mm = 1.4826 * float(np.median(np.abs(cells_mm - np.median(cells_mm))))
+    seen_mm = spread_about(cells_mm, median(cells_mm))
     return min(spread.drift_mm, max(SEEN_FACTOR * seen_mm, LEAST_DRIFT * spread.drift_mm))
 
 

@@ -23,8 +23,8 @@ from cltp.checkpoints.weight_files import digest
 from cltp.data.dataset import ContactDataset
 from cltp.data.sampler import Batch
 from cltp.encoder.clip_towers import Towers
+from cltp.encoder.render import render
 from cltp.errors import TouchError
-from cltp.tactile.render import render
 
 SAVE_S = 120.0
 

@@ -21,6 +21,7 @@ from torch import Tensor
 
 from cltp.atomic_write import replacing
 from cltp.checkpoints.frozen import FrozenEncoder
+from cltp.encoder.render import render
 from cltp.errors import TouchError
 from cltp.evaluation.features import EncodedContacts
 from cltp.sensing.frames import FRAME_SUFFIXES
@@ -29,7 +30,6 @@ from cltp.tactile.cells import resampled
 from cltp.tactile.cloud import TactileCloud
 from cltp.tactile.encoder_input import encoder_input, grid_points
 from cltp.tactile.point_layout import PointLayout
-from cltp.tactile.render import render
 from cltp.tactile.sensors import SensorSpec
 from cltp.tactile.states import CLASSES, NUMBERS
 from tacgrasp.base.errors import UsageError

@@ -10,11 +10,10 @@ Loads no torch.
 
 from __future__ import annotations
 
-import numpy as np
-
 from cltp.tactile.cells import cell_means, filled
 from cltp.tactile.cloud import TactileCloud
 from cltp.tactile.contact.contact_test import touches_alone
+from cltp.tactile.quantiles import quantile
 from cltp.tactile.sensor_noise import MINI_SPREAD, SPREADS
 
 FRACTION, FRACTION_WITH_CONTACT = 0.9, 0.98
@@ -43,7 +42,7 @@ def is_raised(cloud: TactileCloud) -> bool:
 
 def _least_mm(cloud: TactileCloud, fraction: float) -> float:
     """Height that a fraction of the pad lies above [mm]."""
-    return float(np.quantile(filled(cell_means(cloud)), 1 - fraction))
+    return quantile(filled(cell_means(cloud)), 1 - fraction)
 
 
 def raised_text(cloud: TactileCloud) -> str:

@@ -9,13 +9,12 @@ Loads no torch.
 
 from __future__ import annotations
 
-import numpy as np
-
 from cltp.errors import TouchError
 from cltp.tactile.cells import cell_means, filled
 from cltp.tactile.cloud import TactileCloud
 from cltp.tactile.contact.contact_test import drift_alone_mm, touches_alone
 from cltp.tactile.contact.partial_pad import is_partial
+from cltp.tactile.quantiles import quantile
 from cltp.tactile.sensor_noise import MINI_SPREAD, SPREADS
 
 LOW_PART = 0.1
@@ -60,7 +59,7 @@ def unseen_mm(cloud: TactileCloud) -> float:
 
 def lowered_mm(cloud: TactileCloud) -> float:
     """Depth below zero that ``LOW_PART`` of the pad lies under [mm]; negative where it does not."""
-    return -float(np.quantile(filled(cell_means(cloud)), LOW_PART))
+    return -quantile(filled(cell_means(cloud)), LOW_PART)
 
 
 def is_lowered(cloud: TactileCloud) -> bool:

@@ -33,6 +33,7 @@ from cltp.encoder.class_token import (
 from cltp.encoder.encoder import PRESETS, EncoderConfig, TactileEncoder
 from cltp.encoder.heads import StateHeads, restored, targets, transformed
 from cltp.encoder.losses import CltpLoss, ContrastiveLoss
+from cltp.encoder.render import render
 from cltp.encoder.tokenizers import even_channels, farthest_points, grid_maps
 from cltp.errors import TouchError
 from cltp.evaluation.features import encode_batches, random_batches
@@ -44,7 +45,6 @@ from cltp.evaluation.zero_shot import ClassPrompts
 from cltp.llm.generation import Talker
 from cltp.tactile.cloud import cloud_from_heights
 from cltp.tactile.encoder_input import cell_centres, encoder_input, lattice_points, scaled
-from cltp.tactile.render import render
 from cltp.tactile.sensors import SENSORS
 from cltp.tactile.states import ContactState, Position, Side
 from cltp.texts.captions import caption
