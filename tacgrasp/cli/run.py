@@ -36,6 +36,9 @@ EXIT_CODES = {
 }
 """Exit codes of some ends; a completed grasp is 0, any other end 1: a sound run, no good grasp."""
 
+CUT_SHORT = 3
+"""Exit code of a run that would be 0, where the file of ``--json`` lacks steps or the end."""
+
 
 @dataclass(frozen=True)
 class LayerFlags:
@@ -91,7 +94,8 @@ def main(argv: Sequence[str]) -> int:
             outcome = _run(config, contract, events, flags)
         except SystemExit as error:  # of a plugin's device: no end of ours, and no success
             raise RuntimeError("a device or policy asked Python to exit") from error
-    return 0 if outcome.completed else EXIT_CODES.get(outcome.reason, 1)
+    code = 0 if outcome.completed else EXIT_CODES.get(outcome.reason, 1)
+    return CUT_SHORT if code == 0 and events.problem else code
 
 
 def configure(argv: Sequence[str]) -> tuple[RunConfig, Sources, RunFlags]:
@@ -123,6 +127,8 @@ def _run(config: RunConfig, contract: Contract, events: EventFile, flags: RunFla
     from tacgrasp.runtime.reflex_loop import unfelt_slips
 
     events.contract(contract)
+    if events.problem:
+        raise UsageError(f"{events.problem}; free space, or name another file; nothing moved")
     if contract.refused:
         events.refused(contract)
         raise UsageError(
@@ -152,7 +158,7 @@ def _run(config: RunConfig, contract: Contract, events: EventFile, flags: RunFla
         for end_line in end_lines(outcome, config, width_of(console)):
             console.print(end_line)
         if events.problem:
-            sys.stderr.write(f"tacgrasp: {events.problem}\n")
+            sys.stderr.write(f"tacgrasp: {events.problem}; what came later is not in it\n")
     return outcome
 
 

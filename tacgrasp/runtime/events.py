@@ -35,7 +35,8 @@ class EventFile:
     A file that can't be written any more, as on a full disk, ends there, and the run goes on.
 
     Attributes:
-        problem: Why the file lacks what came later; '' where it lacks nothing.
+        problem: Why the file lacks what came later, as '--json F: No space left on device'; ''
+            where it lacks nothing.
     """
 
     def __init__(self, path: Path | None) -> None:
@@ -186,7 +187,7 @@ class EventFile:
             while done < len(data):
                 done += self._file.write(data[done:]) or 0
         except OSError as error:
-            self.problem = f"--json {self._path}: {error.strerror}; what came later is not in it"
+            self.problem = f"--json {self._path}: {error.strerror}"
             with suppress(OSError), self._file:
                 if whole is not None:
                     self._file.truncate(whole)

@@ -71,8 +71,28 @@ def test_a_file_on_a_full_disk_ends_there_and_raises_nothing(tmp_path):
     with EventFile(path) as events:
         events.contract(CONTRACT)
         events.step(scaled_step(UNCALIBRATED))
-    assert str(path) in events.problem
-    assert "what came later is not in it" in events.problem
+    assert events.problem == f"--json {path}: No space left on device"
+
+
+def test_a_file_that_takes_nothing_is_refused_before_anything_moves(tmp_path):
+    path = tmp_path / "full.jsonl"
+    path.symlink_to("/dev/full")
+    argv = ["--policy", "rules", "--record", str(tmp_path / "episodes"), "--json", str(path)]
+    with pytest.raises(UsageError, match=r"full.jsonl: No space left.*another file; nothing moved"):
+        main(argv)
+    assert not (tmp_path / "episodes").exists()
+
+
+def test_a_run_whose_file_is_cut_short_says_so_and_is_no_success(tmp_path, monkeypatch, capsys):
+    def step_of_a_full_disk(events, record):
+        events.problem = "--json run.json: No space left on device"
+
+    monkeypatch.setattr(EventFile, "step", step_of_a_full_disk)
+    argv = ["--policy", "rules", "--record", str(tmp_path), "--json", str(tmp_path / "run.json")]
+    assert main(argv) == 3
+    told = capsys.readouterr()
+    assert "Grasp completed successfully" in told.out
+    assert "No space left on device; what came later is not in it" in told.err
 
 
 def test_an_array_that_can_t_grow_keeps_what_it_has(tmp_path):
