@@ -73,7 +73,7 @@ class ExportFlags:
 
     Attributes:
         episodes: The .mcap files; several, each of another run, for lerobot alone.
-        to: lerobot (a data set of LeRobot v3.0), parquet (one table), rrd (rerun; extra 'view').
+        to: lerobot (a data set of LeRobot v3.0), parquet (one table), rrd (rerun; extra 'export').
         out: New file to write, for lerobot a folder; by default the first episode's name with
             .parquet, .rrd or -lerobot.
         language: Whether lerobot's column language_events is written, which LeRobot knows from 0.6
@@ -210,5 +210,5 @@ def _writer(kind: str) -> Callable[[Episode, Path], None]:
     from tacgrasp.viewer.server import require_rerun
     from tacgrasp.viewer.show import write_rrd
 
-    require_rerun()
+    require_rerun("--to rrd", "export")
     return write_rrd

@@ -10,6 +10,7 @@ import sys
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import fields, is_dataclass
 from difflib import get_close_matches
+from itertools import pairwise
 from pathlib import Path
 from typing import Any, NoReturn, TypeVar
 
@@ -34,7 +35,7 @@ def parse(kind: type[T], argv: Sequence[str], *, prog: str, default: T | None = 
     """
 
     def refuse(event: tyro_errors.ParseErrorEvent) -> NoReturn:
-        message = " ".join(_problem(event, default or kind).split())
+        message = " ".join(_problem(event, default or kind, argv).split())
         raise UsageError(f"{message} (see {prog} --help)") from None
 
     with tyro_errors.on_parse_error(refuse):
@@ -56,7 +57,7 @@ def parse_some(kind: type[T], argv: Sequence[str]) -> T:
     """
 
     def refuse(event: tyro_errors.ParseErrorEvent) -> NoReturn:
-        raise UsageError(_problem(event, kind)) from None
+        raise UsageError(_problem(event, kind, argv)) from None
 
     with tyro_errors.on_parse_error(refuse):
         return tyro.cli(kind, args=argv, return_unknown_args=True, add_help=False)[0]
@@ -72,7 +73,7 @@ _NO_TYPE = re.compile(r"no type matching .* could be instantiated from (.*)$", r
 """How tyro says that none of several types fits."""
 
 
-def _problem(event: tyro_errors.ParseErrorEvent, flags: object) -> str:
+def _problem(event: tyro_errors.ParseErrorEvent, flags: object, argv: Sequence[str]) -> str:
     """Error message of a refused command line; ``flags`` is the model or dataclass to be filled."""
     match event:
         case tyro_errors.UnrecognizedArgs(tokens=tokens):
@@ -80,6 +81,8 @@ def _problem(event: tyro_errors.ParseErrorEvent, flags: object) -> str:
             paths = leaves(flags) if isinstance(flags, SettingsBase) else names
             matches = get_close_matches(tokens[0].split("=")[0], map(flag_of, paths), n=1)
             hint = f"; did you mean {matches[0]}?" if matches else ""
+            if flag := _flag_before(tokens[0], argv):
+                hint = f"; {flag} takes no value"
             return f"unknown arguments: {' '.join(tokens)}{hint}"
         case tyro_errors.MissingArgs(missing_arguments=missing):
             return f"missing: {', '.join(_name(one.arg) for one in missing)}"
@@ -107,6 +110,14 @@ def _problem(event: tyro_errors.ParseErrorEvent, flags: object) -> str:
                 error = error.__context__  # tyro passes on the text of pydantic's error alone
             return message if error is None else explain_flag(error)
     return "the arguments can't be understood"
+
+
+def _flag_before(token: str, argv: Sequence[str]) -> str:
+    """The flag that an unknown argument stands behind, as if it were its value; '' for none."""
+    if token.startswith("-"):
+        return ""
+    before = next((one for one, two in pairwise(argv) if two == token), "")
+    return before if before.startswith("--") and "=" not in before else ""
 
 
 def _name(argument: Any) -> str:

@@ -83,6 +83,7 @@ def refusal(path: Path, operation: str, error: OSError, *, flag: str = "--record
         errno.ENOSPC: ("the disk is full", f"free space or write to another disk with {flag}"),
         errno.EDQUOT: ("the disk quota is used up", f"free space or give another {flag}"),
         errno.EFBIG: ("the file would exceed the size limit", "raise it (ulimit -f)"),
+        errno.EISDIR: ("it is a folder", f"name a file with {flag}"),
         errno.EROFS: ("the file system is read-only", f"give another directory with {flag}"),
         errno.EACCES: ("permission denied", "make its directory writable or give another"),
     }

@@ -32,16 +32,20 @@ START_S = 20.0
 """Longest wait for the viewer's port [s]."""
 
 
-def require_rerun() -> None:
+def require_rerun(user: str = "the viewer", extra: str = "view") -> None:
     """Refuse to go on without rerun.
+
+    Args:
+        user: What needs it.
+        extra: The package's extra that brings it.
 
     Raises:
         UsageError: It is not installed; the message says how to install it.
     """
     if importlib.util.find_spec("rerun") is None:
         raise UsageError(
-            "the viewer needs rerun, which is not installed; install it: pip install "
-            "'tacgrasp[view]', or pip install -e '.[view]' in a copy of the repository"
+            f"{user} needs rerun, which is not installed; install it: pip install "
+            f"'tacgrasp[{extra}]', or pip install -e '.[{extra}]' in a copy of the repository"
         )
 
 

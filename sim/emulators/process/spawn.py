@@ -84,6 +84,11 @@ class EmulatorProcess:
         reader.start()
         reader.join(ready_s)
         if not lines or not lines[0].strip():
+            if not lines and not self._error():
+                raise RobotError(
+                    f"the {kind} emulator was silent for {ready_s:g} s, without an error: this "
+                    "computer had no time for it; end other work and start again"
+                )
             failure = "ended at once" if lines else f"was silent for {ready_s:g} s"
             raise RobotError(f"the {kind} emulator {failure}: {self._error() or 'no error text'}")
         ready = json.loads(lines[0])

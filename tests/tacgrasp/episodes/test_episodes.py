@@ -32,7 +32,7 @@ from tacgrasp.episodes import (
 )
 from tacgrasp.episodes import writer as writer_module
 from tacgrasp.episodes.codec import field_descriptions, from_json, json_schema, to_json
-from tacgrasp.episodes.paths import check_record_directory
+from tacgrasp.episodes.paths import check_record_directory, refusal
 from tacgrasp.episodes.record import ActionMessage, DecisionMessage, StepState
 from tacgrasp.episodes.touch_message import decode_cloud, encode_cloud
 from tests.fakes.episode_samples import (
@@ -320,6 +320,12 @@ def test_a_directory_that_is_none_is_named(tmp_path: Path, where: str, message: 
     writer = EpisodeWriter(tmp_path / where, header())
     with pytest.raises(EpisodeError, match=f"can't create .*{message}.*--record"), writer:
         pass
+
+
+def test_a_folder_in_the_place_of_a_picture_is_told_with_the_flag_that_names_another() -> None:
+    error = IsADirectoryError(errno.EISDIR, "it is a folder")
+    told = refusal(Path("here"), "write", error, flag="--out")
+    assert told == "can't write here: it is a folder; name a file with --out"
 
 
 def test_a_record_directory_is_made_when_it_is_missing(tmp_path: Path) -> None:

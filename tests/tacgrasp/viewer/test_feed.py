@@ -70,11 +70,16 @@ def test_wrong_use_of_view_is_refused(
 
 
 @pytest.mark.parametrize(
-    "argv",
-    [["view", "e.mcap"], ["run", "--view"], ["episodes", "export", "E", "--to", "rrd"]],
+    ("argv", "extra"),
+    [
+        (["view", "e.mcap"], "view"),
+        (["run", "--view"], "view"),
+        (["episodes", "export", "E", "--to", "rrd"], "export"),
+    ],
 )
 def test_without_rerun_the_command_that_installs_it_is_named(
     argv: list[str],
+    extra: str,
     capsys: pytest.CaptureFixture[str],
     monkeypatch: pytest.MonkeyPatch,
     tmp_path: object,
@@ -87,4 +92,4 @@ def test_without_rerun_the_command_that_installs_it_is_named(
     monkeypatch.setattr("tacgrasp.__main__.check_packages", lambda: None, raising=False)
     monkeypatch.setattr("tacgrasp.base.package_check.check_packages", lambda: None)
     assert main([str(old) if part == "E" else part for part in argv]) == 2
-    assert "pip install 'tacgrasp[view]'" in capsys.readouterr().err
+    assert f"pip install 'tacgrasp[{extra}]'" in capsys.readouterr().err

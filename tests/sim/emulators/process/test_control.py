@@ -112,6 +112,11 @@ def test_an_unknown_kind_of_emulator_is_refused_with_what_it_said():
         EmulatorProcess("toaster")
 
 
+def test_an_emulator_that_has_no_time_to_start_is_told_from_one_that_fails():
+    with pytest.raises(RobotError, match="no time for it; end other work and start again"):
+        EmulatorProcess("ur", ready_s=0.01)
+
+
 @pytest.mark.parametrize(
     ("line", "told"),
     [
