@@ -43,6 +43,7 @@ class CalibrateSlipFlags:
 def run(flags: CalibrateSlipFlags) -> None:
     """Hold, unload, and write the calibration."""
     _check(flags)
+    from cltp import TouchError
     from cltp.tactile.shear.slip import slip_model
     from cltp.tactile.shear.slip_calibration import calibrate_slip, save_slip_calibration
     from tacgrasp.bringup.slip_hold import held_frames
@@ -58,7 +59,10 @@ def run(flags: CalibrateSlipFlags) -> None:
     if not config.gripper.min_force_n <= flags.force_n <= config.gripper.max_force_n:
         raise UsageError(f"--force-n {flags.force_n:g} is beyond the gripper of {flags.rig}")
     if config.hardware is None:
-        slip_model(config.sensor)  # refused before anything moves
+        try:
+            slip_model(config.sensor)  # refused before anything moves
+        except TouchError as error:
+            raise UsageError(f"{error}; name one of them with --sensor") from None
     rig = make_rig(config) if config.devices == "hardware" else make_centred_rig(config)
     try:
         model = slip_model(rig.sensor.spec.name)

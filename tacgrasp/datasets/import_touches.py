@@ -139,9 +139,12 @@ def _rows(labels: Path) -> list[_Row]:
             header = [name.strip().lower() for name in reader.fieldnames or ()]
             unknown = [name for name in header if name not in COLUMNS]
             if "file" not in header or unknown or len(set(header)) != len(header):
+                is_one = len(header) == 1 and any(mark in header[0] for mark in ";\t")
+                hint = "; put commas between the columns" if is_one else ""
                 raise UsageError(
                     f"--labels {labels} needs a header with the column file and any of "
-                    f"{', '.join(COLUMNS[1:])}, each once; got {', '.join(header) or 'nothing'}"
+                    f"{', '.join(COLUMNS[1:])}, each once; got "
+                    f"{', '.join(header) or 'nothing'}{hint}"
                 )
             reader.fieldnames = header
             rows = [_row(reader.line_num, dict(cells)) for cells in reader]

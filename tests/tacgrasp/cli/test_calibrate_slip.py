@@ -31,6 +31,11 @@ def test_an_existing_file_stays(tmp_path):
     assert out.read_text() == "mine"
 
 
+def test_a_sensor_without_shear_is_refused_with_the_flag_that_names_another(tmp_path):
+    with pytest.raises(UsageError, match=r"known: .*taxels; name one of them with --sensor"):
+        run(CalibrateSlipFlags(out=tmp_path / "slip.json"))
+
+
 @pytest.mark.parametrize("num_grips", [1, 3])
 def test_ctrl_c_in_a_hold_leaves_the_gripper_open(num_grips, tmp_path, monkeypatch):
     grip, opens, grips = SimGripper.grip, [], []

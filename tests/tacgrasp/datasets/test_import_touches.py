@@ -156,6 +156,7 @@ def test_all_bad_rows_are_told_at_once(touches, capsys):
     ("table", "message"),
     [
         ("", "needs a header"),
+        ("file;shape\nmap.npy;sphere\n", "got file;shape; put commas between the columns"),
         ("shape,texture\nsphere,smooth\n", "needs a header with the column file"),
         ("file,colour\nmap.npy,red\n", "got file, colour"),
         ("file,shape,shape\nmap.npy,a,b\n", "each once"),
