@@ -48,6 +48,7 @@ _MUST_BE = re.compile(
 )
 """'Must be 2 N?' asks for no action, in spite of its verb."""
 _ENGLISH, _FOREIGN = words.word_list("english"), words.word_list("foreign")
+_FOREIGN_MANNER = words.word_list("foreign_manner")
 _OFF = re.compile(rf"\b{words.any_of('off_domain')}\b")
 _HOLD = re.compile(rf"\b{words.any_of('hold')}\b")
 _OURS = re.compile(
@@ -211,7 +212,7 @@ def _no_english(text: str) -> str:
     tokens = [t for t in re.findall(r"[^\W\d_]+", text) if len(t) > 1]
     foreign = sum(t in _FOREIGN for t in tokens)
     known = sum(t in _ENGLISH or bool(_HOLD.fullmatch(t)) for t in tokens)
-    if foreign and foreign >= known:
+    if (foreign and foreign >= known) or _FOREIGN_MANNER.intersection(tokens):
         return NOT_ENGLISH
     return ""
 

@@ -68,6 +68,9 @@ _CLEAR_OF = re.compile(
     r"(?:(?:keep|steer|stay)(?: well| far)? clear|(?:keep|stay|back)(?: well| far)? away|keep (?:off|your distance)|hands off) (?:of|from) (?:#|(?:that|this|those|these|the|any|such)"
     r"(?=\s*(?:$|[.,;!]))|(?:that|this|those|these|the|any|such)(?: \w+)? (?:figures?|values?|numbers?|forces?|levels?|regions?|zones?|range|marks?|limits?|thresholds?|areas?|territory|territories|settings?|pressures?|newtons?|readings?|regime)\b)"
 )
+_AT_A_FORCE = re.compile(
+    r"(?: (?:the|it|grip|grasp|gripping|closing|at|if|when|once|as|soon|force|reaches|exceeds|goes|over|above|beyond|past|anything|everything))* ?#"
+)
 _LEFT = re.compile(
     r"(?:leav(?:e|ing)|(?:keep|stay|steer|back)(?: well| far)? (?:away|clear|off|back)(?: from| of)?|(?:keep )?(?:your )?hands off(?: of)?|"
     r"(?:without|avoid|avoiding|no)(?: any| all)?(?: physical)? (?:touching|contact)(?: with| to)?|do not bother (?:with|about)) (?P<thing>(?:the|that|this|those|these|all|any|its|my|our|your|every|other|both)\b(?: (?!alone|be\b|and|but|or|pick|take|grab|hold)[\w'-]+){0,3})"
@@ -301,6 +304,8 @@ def _stops(text: str) -> str:
                     continue  # 'grip it and wait'
                 if _is_of_other_thing(match.group(), sentence[match.end() :], text):
                     continue  # 'leave the leaf alone, pick the berry'
+                if _AT_A_FORCE.match(sentence[match.end() :]):
+                    continue  # 'abort above 1.1 N'
                 if _CLEAR_OF.match(sentence[match.start() :]) and MARK in text:
                     continue  # 'keep clear of that figure'
                 if (

@@ -218,7 +218,12 @@ def _said_with(
         ended = _ENDS.search(text, found.end())
         end = ended.end() if ended else len(text)
         inside = [span for span in spans if begin <= span[0] < end]
-    return inside, [span for span in spans if inside and span[0] > inside[-1][0]]
+    behind = [span for span in spans if inside and span[0] > inside[-1][0]]
+    return inside, [
+        (start, end)
+        for start, end in behind
+        if text[end : end + 1] != "?" or _requests(text[start:end])
+    ]
 
 
 def _clauses(text: str) -> list[tuple[int, int]]:

@@ -29,9 +29,15 @@ FORBIDDEN_AFTER = rf"(?:(?:{_IS} (?:\w+ly |still |now |therefore |also |hereby )
 _FORBIDDEN_BEHIND = re.compile(rf"^[^,;.#]{{0,30}}? {FORBIDDEN_AFTER}")
 
 
+_REPEATED = re.compile(
+    r"(?<=\bit )(?=(?:do not|never)\b)|(?<=\b(?:them|this|that) )(?=(?:do not|never)\b)"
+)
+"""'Do not drop it do not drop it': the second denial does not undo the first."""
+
+
 def is_denied(before: str, after: str = "") -> bool:
     """Whether the words before or behind a match in its clause deny it."""
-    before = before[-70:]
+    before = _REPEATED.split(before[-70:])[-1]
     part = before.rpartition(" and ")[2]
     denials = len(_NOT.findall(part if _NOT.search(part) else before))
     return (denials + bool(_FORBIDDEN_BEHIND.match(after))) % 2 == 1

@@ -51,6 +51,15 @@ _CONTRACTIONS = (
     (r"\bye\b", "you"),
     (r"\b(?:dinnae|dinna)\b", "do not"),
     (r"\bmor\b", "more"),
+    (r"\b(more|less|higher|harder|softer|lower|firmer) ?'n(?= )", r"\1 than"),
+    (r"(?<!\w)'?bout\b(?! of)", "about"),
+    (r"\boughta\b", "ought to"),
+    (r"\bthats\b", "that is"),
+    (r"\blemme\b", "let me"),
+    (r"\boutta\b", "out of"),
+    (r"\b(hold|grip|grab|lift|pick|squeeze|press|pinch|handle|take) '?er(?= (?!rather\b))", r"\1 it"),
+    (r"\bfor (?:the )?avoidance of (?:all |any )?doubt\b[,:]? ?", ""),
+    (r"\bhow (?:hard|tough|difficult) (?:can|could) (?:it|this|that) (?:possibly )?be\b", "well"),
     (r"\bsub[- ]?newtons?\b", "below 1 newton"),
 )  # fmt: skip
 

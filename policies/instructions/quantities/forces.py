@@ -144,6 +144,7 @@ def read_forces(text: str) -> tuple[list[Force], str, str]:
             left, stop = left[:left_cut], stop + right_cut
             said_of_last = _WAS_WRONG.search(left) if found else None
             own = left[said_of_last.end() :] if said_of_last else left
+            own = _CORRECTION.split(own)[-1]
             before = _CONDITION.sub("", re.split(r"[.;,]\s|\bbut\b", own)[-1])
             after = re.split(
                 r"[.;,]\s?|\b(?:instead of|rather than|because|since)\b", text[stop:], maxsplit=1

@@ -80,10 +80,23 @@ _SHARED_SCALE = re.compile(
 )
 """'Two to three hundred': the scale counts for both."""
 
+_TWICE = re.compile(
+    rf"\b(?P<words>{_WORD}(?:(?:[ -]+| and | point ){_WORD})*) \((?P<digits>\d+(?:\.\d+)?)\)(?= ?[a-z])|"
+    rf"(?<![\d.,])(?P<first>\d+(?:\.\d+)?) \((?P<then>{_WORD}(?:(?:[ -]+| and | point ){_WORD})*)\)(?= ?[a-z])"
+)
+"""'One (1) newton', as contracts have it."""
+
+
+def _once(match: re.Match[str]) -> str:
+    """The digits, where the words beside them say the same; else what no unit makes a force of."""
+    digits = match["digits"] or match["first"]
+    said = in_digits(f"{match['words'] or match['then']} newtons").split()[0]
+    return digits if float(said) == float(digits) else f"{said}({digits})"
+
 
 def in_digits(text: str) -> str:
     """Write the numbers of a plain text in digits; ordinals stay as they are."""
-    text = re.sub(r"(\d)⁄(\d)", r"\1/\2", text)
+    text = _TWICE.sub(_once, re.sub(r"(\d)⁄(\d)", r"\1/\2", text))
     text = _SHARED_SCALE.sub(_scale_of_both, text)
     text = re.sub(r"\b(\d+) (hundred|thousand|million)\b", _scaled, text)
     text = re.sub(r"\bhundred and (?=(?:\w+[ -])?\w+ hundred\b)", "hundred  and  ", text)

@@ -79,6 +79,10 @@ _FILLED = re.compile(
     rf"\b(?P<bare>(?:more|less|harder|higher) than|over|above|below|under|exceed(?:ing)?|up to),? (?:{_FILLER}[ ,]+)+(?={NUMBER})"
 )
 """'At most, say, 0.8 N', 'do not use more than, um, 1 N'."""
+_INTERJECTED = re.compile(
+    rf"({NUMBER}(?:\s*-?\s*(?:{UNIT}))?) (?:(?:no|nope|nah|wait|oh|er+|uh+|um+) )*(?:no|nope|nah) (?:(?:wait|oh|er+|uh+|um+|make (?:it|that)|just|only) )*(?={NUMBER}\s*-?\s*(?:{UNIT})\b)"
+)
+"""'2 N no 1 N', as it is spoken."""
 _ELLIPSIS = re.compile(
     rf"\b(?:not|no) (?:an?|1|one|a single) (millinewton|newton|gram|mn|n|gf) (more|less)(?: than)? ({NUMBER})(?!\s*(?:{UNIT})\b)"
 )
@@ -106,6 +110,7 @@ def read_quantities(text: str) -> Quantities:
     """Read the numbers of a plain text (``policies.instructions.english.text.plain``)."""
     text = _FILLED.sub(_plain_bound, in_digits(text))
     text = re.sub(rf"\b(?:one|1) (?=0\.\d+\s*(?:{UNIT})\b)", "", text)  # 'one third newton'
+    text = _INTERJECTED.sub(r"\1, no wait, ", text)
     text = _ELLIPSIS.sub(r"no \2 than \3 \1", text)
     text, masses = without_masses(text)
     text = re.sub(rf"({NUMBER}) ?, ?(?=(?:{UNIT})\b)", r"\1 ", text)

@@ -37,7 +37,8 @@ _LEAST = re.compile(
     r"(?:\b(?:more|greater|higher|larger) than or equal to|\b(?:at|over|above) or (?:over|above|at)|"
     r"\bat (?:the )?(?:very |absolute )?least|\batleast|\bmin(?:imum|imal(?:ly)?)?\.?(?: (?!not\b|never\b)\w+){0,3}?(?: of| is| at|:| =|=)?|"
     r"\b(?:lower|bottom) (?:\w+ )?(?:limit|bound|end)(?: \w+){0,2}?(?: of| is| at|:| =|=)?|\bfloor(?: \w+){0,3}?(?: of| is| at|:| =|=)?|"
-    r">=|≥|=>|\bno less than|\bno (?:weaker|less|softer|lower|gentler|looser|smaller)(?: an?)? (?:grip|squeeze|hold|force|clamp|pressure|grasp)(?: strength)? than|\bat (?:the )?(?:very )?least (?:with|at|use|apply)|\b(?:it|berry|fruit|this|that|one|strawberry|thing) (?:really |always )?(?:needs|requires|takes)|\bf[_ ]?min\s*[:=]?|\bstarting (?:at|from)|\bbottom out at)"
+    r">=|≥|=>|\bno less than|\bno (?:weaker|less|softer|lower|gentler|looser|smaller)(?: an?)? (?:grip|squeeze|hold|force|clamp|pressure|grasp)(?: strength)? than|\bat (?:the )?(?:very )?least (?:with|at|use|apply)|\b(?:it|berry|fruit|this|that|one|strawberry|thing) (?:really |always )?(?:needs|requires|takes)|\bf[_ ]?min\s*[:=]?|\bstarting (?:at|from)|\bbottom out at|"
+    r"\b(?:lower|low|bottom)[ -](?:alarm|trip|warning|threshold|cut-?off|guard)s?(?: (?:threshold|level|limit|point|value))?(?: of| is| at|:| =|=)?)"
     r"(?: (?:about|around|roughly))?\s*$"
 )
 _TAKES = re.compile(r"\b(?:needs|requires|takes)\b")
@@ -179,6 +180,7 @@ _IF = re.compile(
 )
 _WHEN_ABOVE = re.compile(
     r"\b(?:when|whenever|once|in case|as soon as|the moment|every time|any ?time|if)(?: (?!use\b|using\b|with\b|apply\b|hold\b|grip\b|it slips?\b)\w+){0,3} $"
+    r"|\b(?:stop|abort|halt|trip|quit|fault|alarm|e-?stop|back off|ease off|shut (?:down|off)|cut (?:out|off))(?:s|p?p?ing|p?ed)?(?: (?!at\b)\w+){0,2} $"
 )
 """'Whenever it is above 1 N, ease off'."""
 _WISHED = re.compile(
@@ -235,7 +237,10 @@ def _end_of_conditional_most(left: str, right: str) -> int | None:
     if _IF_SLIPS.search(left):
         return 0
     conditional = _CONDITION.search(re.split(r"[.;]\s", left)[-1])
-    return 0 if (conditional and _RISES.search(left)) or _ONLY_IF.match(right) else None
+    only_if = _ONLY_IF.match(right)
+    if only_if and "unless" in only_if[0] and not NOT.search(left):
+        only_if = None  # '1 N unless it slips' holds with 1 N
+    return 0 if (conditional and _RISES.search(left)) or only_if else None
 
 
 def relation(left: str, right: str) -> tuple[Kind, int, int]:

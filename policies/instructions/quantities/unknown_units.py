@@ -7,6 +7,7 @@ from importlib import resources
 
 from policies.instructions.quantities.elisions import BEFORE_BOUND, BEFORE_VALUE
 from policies.instructions.quantities.force_units import ALONE, LOOSE, NUMBER, UNIT
+from policies.instructions.quantities.masses import OBJECT
 
 _WORDS = frozenset(
     re.findall(
@@ -41,7 +42,7 @@ _DERIVED = re.compile(
 """Torques, stiffnesses, rates: a force is only a part of them."""
 
 _FORMULA = re.compile(
-    rf"(?:\b[a-z]+\(\s*{NUMBER}\s*\)|\b{NUMBER}\)?\s*(?:(?:\^|\*\*)\s*\(?[-+]?|/\s*\(?){NUMBER}\)?|\b{NUMBER}\s*[*×x·]\s?10 ?- ?\d+)\s*(?:{UNIT})\b|"
+    rf"(?:\b[a-z]+\(\s*{NUMBER}\s*\)|\b{NUMBER} to the (?:power (?:of )?)?{NUMBER}|\b{NUMBER}\)?\s*(?:(?:\^|\*\*)\s*\(?[-+]?|/\s*\(?){NUMBER}\)?|\b{NUMBER}\s*[*×x·]\s?10 ?- ?\d+)\s*(?:{UNIT})\b|"
     rf"(?:\(\s*{NUMBER}\s*[+*/]\s*{NUMBER}\s*\)|(?:√\s*\(?|{NUMBER}\s*[*×x])(?=\d){NUMBER}\)?)\s*(?:{UNIT})\b|"
     rf"{NUMBER}\s*(?:{UNIT})\b\s*(?:\(?\s*(?:\^|\*\*|\*|/|×|·|÷|∕|⁄|x(?= ?\d)|times\b|divided by\b)\s*\d[\d.,]*|: ?\d+(?:\.\d+)?(?=\s*(?:$|[;!]|\.(?!\d)))|quartered\b)"
 )
@@ -51,7 +52,7 @@ _MALFORMED = re.compile(
     rf"(?P<a>{_DIGITS})\s*(?:{UNIT})\b|(?:{BEFORE_BOUND}|{BEFORE_VALUE})(?P<b>{_DIGITS})(?![.,]?\w)"
 )
 _NO_NUMBER = re.compile(
-    rf"(?<![\w.,])(?:\d[\d.,]*(?:[:;_'~|\\]\d[\d.,]*| ?\(\d+\)| over \d[\d.,]*)\s*|(?<![\w.])[a-z][.,]\d[\d.,]*\s*|(?!0,)\d{{1,3}},\d{{3}}\s*(?=n(?:ewtons?)?\b)|(?<!\d )(?:ii+|iv|vi*|ix|xi*) )(?:{UNIT})\b"
+    rf"(?<![\w.,])(?:\d[\d.,]*(?:[:;_'~|\\]\d[\d.,]*| ?\([\d.]+\)| over \d[\d.,]*)\s*|(?<![\w.])[a-z][.,]\d[\d.,]*\s*|(?!0,)\d{{1,3}},\d{{3}}\s*(?=n(?:ewtons?)?\b)|(?<!\d )(?:ii+|iv|vi*|ix|xi*) )(?:{UNIT})\b"
 )
 """'0:3 N', '0.8(1) N', '1 over 3 N', 'iv n', 'o,5 N', 'l.2 N'; '1,500 N', which may be 1.5 or 1500."""
 
@@ -89,6 +90,25 @@ _DENIED_TWICE = re.compile(
     r"\bnot (?:want|wish|like|need|ask|expect)\b[^.;:,#\d]{0,30}?\b(?:not|never|avoid) (?:to )?(?:exceed|go (?:over|above|beyond|past)|pass|top|surpass|cross|(?:use|apply) (?:more|less) than|(?:fall|drop|go) (?:below|under))"
 )
 
+_AND_A_BIT = re.compile(
+    rf"{NUMBER}\s*-?\s*(?:{UNIT})[ ,-]+(?:and|plus|with)[ -](?:(?:maybe|perhaps|just|then|a|an|some|wee|tiny|little|small)[ -])*"
+    r"(?:bit|little|touch|tad|hair|smidge\w*|some|something|change|extra|more)(?: (?:more|extra|on top|over|besides))?(?=\s*(?:$|[.,;:!?)]|please|thanks|thank|for|on))"
+)
+_NAMING = re.compile(
+    rf"\b(?:the|that|this|those|these|my|our|your|an?|another) (?:[a-z]+ )?{NUMBER}[ -]*(?:{UNIT}) "
+    rf"(?:(?!(?:on|onto|for|to|of|and|or|in|at|with|by|from)\b)[a-z]+ )?{OBJECT}"
+    r"(?! (?:grip|grasp|hold|squeeze|force|pinch|pressure|setting|limit|recipe|program|mode|profile|preset)\w*)"
+)
+"""'The 2 N berry'."""
+_ASKED_TWICE = re.compile(
+    rf"{NUMBER}\s*-?\s*(?:(?:{UNIT})\s*)?\?+\s*(?:(?:or|maybe|perhaps|no) )*{NUMBER}\s*-?\s*(?:{UNIT})\s*\?"
+)
+_NO_DIGITS = re.compile(
+    r"\b(?:with|at|use|using|apply|most|least|than|exceed|above|below|under|over|about|to|too|for|fore|won|ate|of|(?!a\b)[a-z]|xx+|tb[adc])[ -](?:milli-?|kilo-?)?newtons?\b(?!')"
+    r"|(?:[?_]+|\b(?:xx*|tb[adc])) n\b(?!')"
+)
+"""'With for newtons', 'use x newtons': what was to be a number is none."""
+
 
 def undecided_force(text: str, *, is_bounded: bool) -> str:
     """Why the words of a plain text leave a force undecided; '' where they do not.
@@ -99,6 +119,14 @@ def undecided_force(text: str, *, is_bounded: bool) -> str:
     """
     if match := _DENIED_TWICE.search(text):
         return f"{match[0]!r} denies a bound twice; say 'at most' or 'at least'"
+    if match := _AND_A_BIT.search(text):
+        return f"{match[0]!r} leaves the force open; say it as one number, as in '1.5 N'"
+    if match := _NAMING.search(text):
+        return f"{match[0]!r} names a thing by a force; say 'use 1.5 N' for the grip"
+    if match := _ASKED_TWICE.search(text):
+        return f"{match[0]!r} asks which force to use; say one"
+    if not is_bounded and (match := _NO_DIGITS.search(text)):
+        return f"{match[0]!r} has no number; say how many, as in '1.5 N'"
     match = _VAGUE.search(text)
     return (
         f"{match[0]!r} is no number; say how many, as in '1.5 N'"
