@@ -27,7 +27,7 @@ _OF_OBJECT = re.compile(
 _NEWTONS = rf"{NUMBER}\s*-?\s*(?:{UNIT})\b"
 _WEIGHT = re.compile(
     rf"\b(?:weigh(?:s|ed|ing)?(?: in)?(?: at)?|weight(?: of| is| was|:)?|label(?:l?ed)?|marked|engraved|stamped)(?: (?:about|around|roughly|only|just))? ?['\"]?(?P<force>{_NEWTONS})"
-    rf"|(?P<other>{_NEWTONS})['\"]? (?:(?:test|dead|brass|steel|calibration) )?(?:weights?|springs?|dumb-?bells?|magnets?|load cells?|sensors?|(?:force )?gauges?)\b"
+    rf"|(?P<other>{_NEWTONS})['\"]? (?:(?:test|dead|brass|steel|calibration) )?(?:weights?|springs?|dumb-?bells?|magnets?|load cells?|sensors?|(?:force )?gauges?|heavy|in weight)\b"
 )
 """'The apple that weighs 1.5 N', 'beside the 2 N weight'."""
 _DEVICE = re.compile(
@@ -36,6 +36,7 @@ _DEVICE = re.compile(
     rf"|(?P<other>{_NEWTONS}) of (?:suction|vacuum|pull|friction|thrust|drag)\b"
 )
 """'Load cell range 5 N', 'while I pull with 3 N', '3 N of suction'."""
+_AS_MUCH_AS = re.compile(r"\b(?:as \w+ as|like|than)(?: (?:the|an?|that|this|my|our))? $")
 _PART = re.compile(
     rf"\b(?:stem|stalk|lid|cap|cork|label|peel|leaf|leaves|calyx|sticker|button|key|switch|latch|zip)s? (?:\w+ )?(?:comes?|came|pulls?|pulled|peels?|breaks?|snaps?|pops?|detach\w*|separat\w*|opens?|clicks?|holds?|needs|takes|resists)\b[^.;,#]{{0,30}}?(?P<force>{ONE_FORCE})"
 )
@@ -97,6 +98,8 @@ def without_other_forces(text: str) -> str:
     text = _LIFTED.sub("the usual grip will do", _ALLOWED.sub("the usual grip will do", text))
     for pattern in (_WEIGHT, _DEVICE):
         for match in reversed(list(pattern.finditer(text))):
+            if _AS_MUCH_AS.search(text[: match.start()]):
+                continue  # 'as hard as a 2 N spring'
             start, end = match.span(match.lastgroup or "force")
             text = f"{text[:start]}{MARK}{text[end:]}"
     if part := _PART.search(text):

@@ -165,6 +165,9 @@ def _meant(clean: str) -> tuple[str, Quantities, str]:
     if is_left and statements.rest != clean:
         left = {(force.kind, force.value_n) for force in rest.forces}
         stated = [force for force in numbers.forces if (force.kind, force.value_n) not in left]
+        wished_n = max((force.value_n for force in rest.forces), default=0.0)
+        if lower := [each for each in stated if each.kind == "most" and each.value_n < wished_n]:
+            return clean, numbers, f"{lower[0].words!r} is below {wished_n:.3g} N; say which counts"
         return statements.rest, replace(rest, stated=tuple(stated)), ""
     return clean, numbers, f"{statements.words!r} asks for no force; say 'use ...' or 'at most ...'"
 

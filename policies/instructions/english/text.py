@@ -66,6 +66,7 @@ _CONTRACTIONS = (
 _TYPED = (
     (r"(?<=\d)[·٫](?=\d)", "."),  # decimal points of other keyboards
     (r"(?<=[a-z]{2}),(?=\.?\d)", ", "),
+    (r"(?<=\d)\s*(?:pct|p\.c\.)(?![a-z])", " %"),
     (r"\s*(?:!=|≠|<>)\s*", " not "),
     (r"\s&\s", " and "),
     (r"(?:^|(?<=\s))!\s*(?=\.?\d)", "not "),

@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 
 from policies.instructions.english.denials import FORBIDDEN_AFTER, NO_CASE
-from policies.instructions.quantities.force_units import LOOSE, NUMBER, UNIT
+from policies.instructions.quantities.force_units import LOOSE, NUMBER, UNIT, number
 
 _ONE = rf"(?P<one>{NUMBER}(?:\s*-?\s*(?:{UNIT}|{LOOSE})\b)?(?: of (?:grip )?force\b)?)"
 _NOT = rf"(?:not|never|no longer|{NO_CASE})"
@@ -76,11 +76,30 @@ _FROM = re.compile(
 _NOT_MORE = re.compile(r"\b(not (?:\w+ )?(?:more|less|higher|harder|bigger)) (?=(?:about )?\.?\d)")
 """'Not more 1 N please'."""
 
+SLIGHTLY = 1.25
+"""What is slightly more than a force is at most so many times it. Our choice."""
+_SLIGHTLY_MORE = re.compile(
+    rf"(?P<before>[^.;:,#\d]*?)\b(?:an? (?:(?:wee|tiny|little|small) )*(?:bit|little|touch|tad|hair|shade|smidge\w*|fraction|whisker)|just|slightly|barely|marginally) "
+    rf"(?:more than|over|above|higher than|beyond|north of|past) (?P<value>{NUMBER})\s*-?\s*(?P<unit>(?:{UNIT})\b)"
+)
+"""'A bit more than 1 N' asks for no 2 N."""
+_LIMITS = re.compile(
+    r"\b(?:not|never|no|nothing|nor|neither|without|avoid\w*|if|when\w*|once|unless|until|should|before|stop\w*|abort|soon)\b"
+)
+
+
+def _close_above(match: re.Match[str]) -> str:
+    if _LIMITS.search(match["before"]):
+        return match[0]
+    top = f"{SLIGHTLY * number(match['value']):.6g}"
+    return f"{match['before']}between {match['value']} and {top} {match['unit']}"
+
 
 def with_plain_bounds(text: str) -> str:
     """Write each bound of a plain text, its numbers in digits, with its words before its force."""
     text = _NOT_MORE.sub(r"\1 than ", text)
     text = _FROM.sub(r"\1 ", _THAN.sub(r"\1 than", text))
+    text = _SLIGHTLY_MORE.sub(_close_above, text)
     for pattern, plainly in _PLAIN:
         text = re.sub(pattern, plainly, text)
     return text

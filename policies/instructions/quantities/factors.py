@@ -65,7 +65,7 @@ def read_factor(text: str) -> tuple[float | None, str, str]:
         (rf"(?:three times|triple|thrice) (?:as {_HOW}|{_USUAL})|\btriple (?:the|your)", lambda m: 3.0),
         (rf"(?:half|0\.5) as {_HOW}|\bhalf {_USUAL}|\bhalf (?:of )?{_USUAL}|\b(?:in|by) half\b|\bhalve\b|\bhalf (?:the )?(?:force|grip|strength|pressure|power|squeeze)", lambda m: 0.5),
         (rf"(?:another|an extra|extra|additional|add|plus) {NUMBER}\s*(?:%|percent|per cent)|{NUMBER}\s*(?:%|percent|per cent) (?:on top|extra)", lambda m: 1 + _percent(m) / 100),
-        (r"\bto (?:about |around |roughly )?half\b", lambda m: 0.5),
+        (r"\b(?:to (?:about |around |roughly )?|but (?:only |just )?)half\b", lambda m: 0.5),
         (rf"{percent} {_UP}", lambda m: 1 + number(m["p"]) / 100),
         (rf"{percent} {_DOWN}", lambda m: 1 - number(m["p"]) / 100),
         (rf"\b(?:{_GO_UP}|{_UP})\b[^.;#]{{0,40}}?by (?:about |around )?{percent}", lambda m: 1 + number(m["p"]) / 100),

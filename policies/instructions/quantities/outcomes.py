@@ -72,10 +72,10 @@ _STANDS = re.compile(
 )
 
 _NEVER_HURT = re.compile(
-    rf"\b(?:not|never|nothing|none|no)\b[^.;,#]{{0,40}}?\b(?:{_HURT}|bruis\w*|burst|crack|break|crush|squash|damage|dent|tear|split|pop)\b[^.;,#]{{0,15}}? (?:until|till|before|below|under|less than|up to)(?: (?:you|it|we|i|the force) (?:reach|reaches|hit|hits|get to|gets to))?{_ROUGHLY}\s*$"
+    rf"\b(?:not|never|nothing|none|no)\b[^.;,#]{{0,40}}?\b(?:{_HURT}|bruis\w*|burst|crack|break|crush|squash|damage|dent|tear|split|pop)\b(?:(?!\b(?:not|never)\b)[^.;,#]){{0,15}}? (?:until|till|before|below|under|less than|up to)(?: (?:you|it|we|i|the force) (?:reach|reaches|hit|hits|get to|gets to))?{_ROUGHLY}\s*$"
 )
 _NEVER_SLIPPED = re.compile(
-    rf"\b(?:not|never|nothing|none|no)\b[^.;,#]{{0,40}}?\b(?:{_SLIPPED}|slip|slide|fall|drop)\b[^.;,#]{{0,15}}? (?:above|over|beyond|more than|from){_ROUGHLY}\s*$"
+    rf"\b(?:not|never|nothing|none|no)\b[^.;,#]{{0,40}}?\b(?:{_SLIPPED}|slip|slide|fall|drop)\b(?:(?!\b(?:not|never)\b)[^.;,#]){{0,15}}? (?:above|over|beyond|more than|from){_ROUGHLY}\s*$"
 )
 """'It never bursts below 2 N', 'it does not slip above 0.5 N': the force is the end of what is sure."""
 

@@ -95,7 +95,7 @@ _PRESSURE = re.compile(
     r"n ?(?:/|per) ?(?:square )?[cm]m)"
 )
 _PERCENT_OF_NOTHING = re.compile(
-    rf"\b(?:with|at|use|using|apply|to) ({NUMBER}\s*(?:%|percent|per cent))(?=\s*(?:$|[.,;!]| please| and| force\b))"
+    rf"\b(?:with|at|use|using|apply|to|(?:give|make|set|put|turn|run) it|go|only|just) ({NUMBER}\s*(?:%|percent|per cent))(?=\s*(?:$|[.,;!]| please| and| force\b))"
 )
 
 

@@ -71,7 +71,7 @@ _MOST_AFTER = re.compile(
 )
 _LEAST_AFTER = re.compile(
     r"\s*(?:-|–|,|:|\+)?\s*(?:(?:at |as )?(?:a |the )?min(?:imum)?\b(?!\.?(?: of| is|:| =)? ?\d)|(?:(?:or|and) )?upwards?\b|(?:or|and) (?:a (?:little|bit|touch) |slightly |even )?(?:more|above|higher|over|harder|firmer|better|greater|larger|up|upwards?)\b|(?: [a-z]+){1,3} at (?:the )?(?:very |absolute )?least\b|[;,.]? ?(?:and )?(?:do not|never|not|but not) (?:\w+ ){0,2}(?:under|below|beneath|lower than) (?:it|that|this)\b|"
-    r"at (?:the )?(?:very |absolute )?least\b|plus\b|"
+    r"at (?:the )?(?:very |absolute )?least\b|plus\b(?! (?:or )?minus\b)|"
     r"(?:,? ?and )?(?:absolutely |(?:under|in|on|by|at) )?(?:no|not|never)(?: \w+){0,2} (?:less|lower|softer|under|below)\b|"
     r"(?:is|as|being)(?: \w+){0,3} (?:minimum|min|floor|least)\b|(?:floor)\b|"
     r"(?:(?:an?|the|my|your|as|is|as an?|as the) )*lower (?:\w+ )?(?:bound|limit|end)\b|"
@@ -148,7 +148,7 @@ _HARMS_BEYOND = re.compile(
 """'Above that it bruises'."""
 _LIMIT_AFTER = re.compile(
     r"\s*[.;(:!,–—-]*\s*(?:(?:and|but) )?(?:(?:that|this|which|it)(?: is|'s| has to be| must be) (?:really |already |also )?(?:the|my|our|your|a|an)? ?(?:very |absolute |hard |upper |strict )*"
-    r"(?:max(?:imum|imal)?|limit|ceiling|cap|most(?: (?:i|we|you|it|that)\b[^.;#\d]*)?|upper (?:limit|bound|end))|(?:hard |absolute |upper |strict )*(?:limit|max(?:imum)?|ceiling|peak)(?=\s*[.;)!]|\s*$)|"
+    r"(?:max(?:imum|imal)?|limit|ceiling|cap|most(?: (?:i|we|you|it|that)\b[^.;#\d]*)?|upper (?:limit|bound|end))|(?:hard |absolute |upper |strict )*(?:limit|max(?:imum)?|ceiling|peak)(?=\s*[.;)!](?!\s*[:=]?\s*\d)|\s*$)|"
     r"(?:absolutely |definitely |and |but |really )*(?:no|never|not|nothing) (?:more|higher|harder|further)(?=\s*[.;)!]|\s*$)|(?:that|this|which|it) (?:must|may|should|can|shall|is) (?:not|never) (?:to )?be (?:exceeded|passed|surpassed|crossed)|"
     r"(?:please |just )*(?:go|push|press|squeeze|rise|get) no (?:higher|further|harder|more|tighter|firmer))\b(?! (?:than|of) \d)(?!\s*(?:is|of|:|=|at|to)?\s*\.?\d)"
 )
@@ -175,6 +175,10 @@ NOT = re.compile(
     r"\b(?:not|no|never|none|nothing|nowhere|without|nor|neither|avoid\w*|refrain|refuse|forbid\w*|stop|"
     r"prevent\w*|keep(?: \w+){0,4} from|rather than|instead of|in place of|hardly|nobody)\b"
 )
+_BEGINS = re.compile(
+    r"[.;:,]\s|\bso\b|\bbut\b|\band (?=(?:do not|never|not|no)\b)|(?<= )(?=do not\b)|(?<=\bit )(?=never\b)"
+)
+"""Where the reach of a denial begins: in 'do not drop it do not go over 1 N' at the second."""
 _IF = re.compile(
     r"(?<!only )(?<!just )\b(?:if|should) (?:you|it|we|the \w+)\b(?! (?:would |could |can |just |only |always |never )*(?:stay|stays|stayed|keep|keeps|kept|remain\w*|hold|held|use|used|limit\w*|were|was kept|is kept)\b)"
 )
@@ -281,7 +285,7 @@ def relation(left: str, right: str) -> tuple[Kind, int, int]:
     ):
         if match := pattern.search(left):
             clause_start = max(
-                (m.end() for m in re.finditer(r"[.;:,]\s|\bso\b|\bbut\b", left[: match.start()])),
+                (m.end() for m in _BEGINS.finditer(left[: match.start()])),
                 default=0,
             )
             said = _UNCONCERNED.sub(lambda m: " " * len(m.group()), left)
@@ -290,11 +294,12 @@ def relation(left: str, right: str) -> tuple[Kind, int, int]:
                 _IF.finditer(said, clause_start, match.end())
             )
             stated = _HARMED if pattern is _ABOVE else _SLIPPING
-            is_denied = len(denial) % 2 == 1 or (
+            beside = denial if pattern is _ABOVE or len(denial) % 2 == 1 else []
+            is_denied = bool(beside) or (
                 pattern is _ABOVE and bool(_WHEN_ABOVE.search(said[clause_start : match.start()]))
             )
             is_denied = is_denied or bool(harm.match(right)) or bool(stated.search(left))
-            start = denial[0].start() if len(denial) % 2 == 1 else match.start()
+            start = beside[0].start() if beside else match.start()
             return (denied if is_denied else plainly), start, 0  # type: ignore[return-value]
     if match := _HARMED.search(left):
         return "most", match.start(), 0

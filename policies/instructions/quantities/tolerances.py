@@ -42,9 +42,20 @@ _AHEAD = re.compile(
 )
 _LONE = re.compile(rf"^[^\d]*?±\s*(?P<part>{_BARE}\s*{_PART})")
 
+_PARTS = {"half": 50, "third": 33, "quarter": 25, "fifth": 20, "tenth": 10}
+_PART_EITHER_WAY = re.compile(
+    rf"(?P<sign>±|\bplus[ /-]*(?:or |and )?[ /-]*minus|\bgive or take) (?:an? |one |1 )?(?P<part>{'|'.join(_PARTS)})\b"
+)
+"""'1 N, plus or minus a fifth'."""
+
+
+def _in_percent(match: re.Match[str]) -> str:
+    return f"{match['sign']} {_PARTS[match['part']]} %"
+
 
 def with_plain_tolerances(text: str) -> str:
     """Write each tolerance of a plain text, its numbers in digits, directly behind its force."""
+    text = _PART_EITHER_WAY.sub(_in_percent, text)
     for pattern, plainly in _PLAIN:
         text = re.sub(pattern, plainly, text)
     text = _BEHIND.sub(r"\g<one> \g<tolerance>\g<between>", text)

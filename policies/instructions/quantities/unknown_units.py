@@ -52,6 +52,7 @@ _MALFORMED = re.compile(
     rf"(?P<a>{_DIGITS})\s*(?:{UNIT})\b|(?:{BEFORE_BOUND}|{BEFORE_VALUE})(?P<b>{_DIGITS})(?![.,]?\w)"
 )
 _NO_NUMBER = re.compile(
+    rf"{NUMBER} ?[-–] ?\d[\d.,]* ?[-–] ?\d[\d.,]*\s*(?:{UNIT})\b|(?<![\w.,])\d[\d.,]*m?n\d+\b|"
     rf"(?<![\w.,])(?:\d[\d.,]*(?:[:;_'~|\\]\d[\d.,]*| ?\([\d.]+\)| over \d[\d.,]*)\s*|(?<![\w.])[a-z][.,]\d[\d.,]*\s*|(?!0,)\d{{1,3}},\d{{3}}\s*(?=n(?:ewtons?)?\b)|(?<!\d )(?:ii+|iv|vi*|ix|xi*) )(?:{UNIT})\b"
 )
 """'0:3 N', '0.8(1) N', '1 over 3 N', 'iv n', 'o,5 N', 'l.2 N'; '1,500 N', which may be 1.5 or 1500."""
@@ -100,11 +101,17 @@ _NAMING = re.compile(
     r"(?! (?:grip|grasp|hold|squeeze|force|pinch|pressure|setting|limit|recipe|program|mode|profile|preset)\w*)"
 )
 """'The 2 N berry'."""
+_CUT_OFF = re.compile(
+    rf"{NUMBER}\s*(?:{UNIT})?\s*(?:\b(?:to|and|or|but|plus|minus|than)|[-–±])\s*[.!]*$|\b(?:(?:no|not|less|more) than|between)\s*[.!]*$"
+    rf"|\bbetween(?: about| around)? {NUMBER}\s*-?\s*(?:{UNIT})\s*(?:$|[.;!](?!\d))"
+)
+"""'Hold it at 1 to', 'between 1 N': the end of a range is missing."""
 _ASKED_TWICE = re.compile(
     rf"{NUMBER}\s*-?\s*(?:(?:{UNIT})\s*)?\?+\s*(?:(?:or|maybe|perhaps|no) )*{NUMBER}\s*-?\s*(?:{UNIT})\s*\?"
 )
 _NO_DIGITS = re.compile(
     r"\b(?:with|at|use|using|apply|most|least|than|exceed|above|below|under|over|about|to|too|for|fore|won|ate|of|(?!a\b)[a-z]|xx+|tb[adc])[ -](?:milli-?|kilo-?)?newtons?\b(?!')"
+    r"|\b(?:with|at|to|of|use|is|exceed|than|over|under|above|below|most|least|[=:<>≤≥]) ?m?n ?\d"
     r"|(?:[?_]+|\b(?:xx*|tb[adc])) n\b(?!')"
 )
 """'With for newtons', 'use x newtons': what was to be a number is none."""
@@ -123,6 +130,8 @@ def undecided_force(text: str, *, is_bounded: bool) -> str:
         return f"{match[0]!r} leaves the force open; say it as one number, as in '1.5 N'"
     if match := _NAMING.search(text):
         return f"{match[0]!r} names a thing by a force; say 'use 1.5 N' for the grip"
+    if match := _CUT_OFF.search(text):
+        return f"{match[0].strip()!r} ends in the middle; say both ends, as in '1 to 1.5 N'"
     if match := _ASKED_TWICE.search(text):
         return f"{match[0]!r} asks which force to use; say one"
     if not is_bounded and (match := _NO_DIGITS.search(text)):
