@@ -31,6 +31,7 @@ _DENIED = r"\b(?:not|never|no|avoid\w*|without|nothing|refrain\w* from|stay\w* (
 _OR_MORE = r",? (?:or|and) (?:anything )?(?:more|above|over|higher|up|upwards?|beyond|greater|harder|firmer|stronger)\b(?! (?:than )?[\d.])"
 _OR_LESS = r",? (?:or|and) (?:anything )?(?:less|under|below|lower|down|downwards?|smaller|softer|gentler|lighter)\b(?! (?:than )?[\d.])"
 _THERE = r"[^.;:,#\d]{0,50}?"
+_NO_AND = r"(?:(?!\band\b)[^.;:,#\d]){0,50}?"
 
 _PLAIN: tuple[tuple[str, str], ...] = (
     (rf"\bnot (?:even )?(?:an?|one|{NUMBER})\s*(?:{UNIT}) (?:above|over|beyond|more than) {_ONE}", r"at most \g<one>"),
@@ -42,7 +43,7 @@ _PLAIN: tuple[tuple[str, str], ...] = (
     (rf"\b(?:(?:do|must|should|may) not|never) (\w+)(?: it)?(?: with| at)? not {_ONE}", r"\1 exactly \g<one>"),
     (rf"\b(?:except|other than|apart from|all but|excluding)(?: for)? {_ONE}", r"at most \g<one>"),
     (rf"({_DENIED}{_THERE} ?){_ONE}{_OR_MORE}", r"\1more than \g<one>"),
-    (rf"({_DENIED}{_THERE} ?){_ONE}{_OR_LESS}", r"\1less than \g<one>"),
+    (rf"({_DENIED}{_NO_AND} ?){_ONE}{_OR_LESS}", r"\1less than \g<one>"),
     (rf"{_ONE}{_OR_MORE} (?={FORBIDDEN_AFTER})", r"more than \g<one> "),
     (rf"{_ONE}{_OR_LESS} (?={FORBIDDEN_AFTER})", r"less than \g<one> "),
     (rf"{_BEHIND}{_EXCEEDED}\b", r"at most \g<one>"),

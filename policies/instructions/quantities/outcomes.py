@@ -71,11 +71,13 @@ _STANDS = re.compile(
     rf"\b(?:surviv(?:es|ed?)|withst(?:ands?|ood)|supports?|supported|resists?|resisted|tolerat(?:es|ed?)|endur(?:es|ed)|(?:it|berry|fruit|berries|this|that|these|they|one|skin|sample|specimen)(?: \w+ this)? (?:can|could) (?:just |only |easily |probably |barely )?(?:take|stand|bear|handle|resist)|(?:gripper|sensor|robot|arm|fingers?|hand|it) (?:is |are )?(?:rated|specified|certified) (?:for|to|at)|(?:gripper|robot|arm|fingers?|hand|motors?) (?:can|could) (?:do|reach|deliver|apply|produce|exert|manage|go (?:up )?to))(?: up to)?{_ROUGHLY}\s*$"
 )
 
+_NO_ORDER = r"(?:(?!\b(?:not|never|no|nothing|and|but|so)\b)[^.;,#])"
+"""Between what never happens and its force: no order that the force is of."""
 _NEVER_HURT = re.compile(
-    rf"\b(?:not|never|nothing|none|no)\b[^.;,#]{{0,40}}?\b(?:{_HURT}|bruis\w*|burst|crack|break|crush|squash|damage|dent|tear|split|pop)\b(?:(?!\b(?:not|never)\b)[^.;,#]){{0,15}}? (?:until|till|before|below|under|less than|up to)(?: (?:you|it|we|i|the force) (?:reach|reaches|hit|hits|get to|gets to))?{_ROUGHLY}\s*$"
+    rf"\b(?:not|never|nothing|none|no)\b[^.;,#]{{0,40}}?\b(?:{_HURT}|bruis\w*|burst|crack|break|crush|squash|damage|dent|tear|split|pop)\b{_NO_ORDER}{{0,15}}? (?:until|till|before|below|under|less than|up to)(?: (?:you|it|we|i|the force) (?:reach|reaches|hit|hits|get to|gets to))?{_ROUGHLY}\s*$"
 )
 _NEVER_SLIPPED = re.compile(
-    rf"\b(?:not|never|nothing|none|no)\b[^.;,#]{{0,40}}?\b(?:{_SLIPPED}|slip|slide|fall|drop)\b(?:(?!\b(?:not|never)\b)[^.;,#]){{0,15}}? (?:above|over|beyond|more than|from){_ROUGHLY}\s*$"
+    rf"\b(?:not|never|nothing|none|no)\b[^.;,#]{{0,40}}?\b(?:{_SLIPPED}|slip|slide|fall|drop)\b{_NO_ORDER}{{0,15}}? (?:above|over|beyond|more than|from){_ROUGHLY}\s*$"
 )
 """'It never bursts below 2 N', 'it does not slip above 0.5 N': the force is the end of what is sure."""
 

@@ -146,10 +146,11 @@ _HARMS_BEYOND = re.compile(
     rf"(?: (?:it|they|the \w+))?(?: (?:just|only|will|would|easily))* {_HARMS}"
 )
 """'Above that it bruises'."""
+_ENDED = r"(?=\s*(?:$|[.;)!,](?!\s*[:=]?\s*\d)|(?:and|because|but|since|so|thanks|please)\b))"
 _LIMIT_AFTER = re.compile(
     r"\s*[.;(:!,–—-]*\s*(?:(?:and|but) )?(?:(?:that|this|which|it)(?: is|'s| has to be| must be) (?:really |already |also )?(?:the|my|our|your|a|an)? ?(?:very |absolute |hard |upper |strict )*"
-    r"(?:max(?:imum|imal)?|limit|ceiling|cap|most(?: (?:i|we|you|it|that)\b[^.;#\d]*)?|upper (?:limit|bound|end))|(?:hard |absolute |upper |strict )*(?:limit|max(?:imum)?|ceiling|peak)(?=\s*[.;)!](?!\s*[:=]?\s*\d)|\s*$)|"
-    r"(?:absolutely |definitely |and |but |really )*(?:no|never|not|nothing) (?:more|higher|harder|further)(?=\s*[.;)!]|\s*$)|(?:that|this|which|it) (?:must|may|should|can|shall|is) (?:not|never) (?:to )?be (?:exceeded|passed|surpassed|crossed)|"
+    rf"(?:max(?:imum|imal)?|limit|ceiling|cap|most(?: (?:i|we|you|it|that)\b[^.;#\d]*)?|upper (?:limit|bound|end))|(?:hard |absolute |upper |strict )*(?:limit|max(?:imum)?|ceiling|peak){_ENDED}|"
+    rf"(?:absolutely |definitely |and |but |really )*(?:no|never|not|nothing) (?:more|higher|harder|further){_ENDED}|(?:that|this|which|it) (?:must|may|should|can|shall|is) (?:not|never) (?:to )?be (?:exceeded|passed|surpassed|crossed)|"
     r"(?:please |just )*(?:go|push|press|squeeze|rise|get) no (?:higher|further|harder|more|tighter|firmer))\b(?! (?:than|of) \d)(?!\s*(?:is|of|:|=|at|to)?\s*\.?\d)"
 )
 """'1 N. That is the maximum.' '1 N; absolutely no more'."""
@@ -177,6 +178,9 @@ NOT = re.compile(
 )
 _BEGINS = re.compile(
     r"[.;:,]\s|\bso\b|\bbut\b|\band (?=(?:do not|never|not|no)\b)|(?<= )(?=do not\b)|(?<=\bit )(?=never\b)"
+)
+_BEGINS_BELOW = re.compile(
+    rf"{_BEGINS.pattern}|\b(?:it|them|this|that|one|(?:straw ?)?berry|fruit) and\b"
 )
 """Where the reach of a denial begins: in 'do not drop it do not go over 1 N' at the second."""
 _IF = re.compile(
@@ -213,7 +217,7 @@ _TOO_MUCH = re.compile(
     rf"[^.;#]{{0,30}}\b(?:(?<!not )(?<!never )too (?:much|far|hard)|out of|no go|not ok\w*|pointless|useless|no (?:use|sense|point|need|good)|wast\w+|{_UNWANTED}|(?:not|never) (?:be )?(?:needed|necessary|required|called for|wise|good|wanted|used)|jam\b|juice\b|{_HARMS})"
 )
 _TOO_LITTLE = re.compile(
-    rf"[^.;#]{{0,20}}\b(?:will not do|not (?:allowed|acceptable|permitted|ok\w*|on)|forbidden|banned|not (?:enough|sufficient)|too little|insufficient|useless|will not hold|no good|not acceptable|{_SLIPS}|let it|(?:gets?|is|becomes?|feels) (?:loose|shaky|unstable|slippery))"
+    rf"(?:(?!\b(?:not|never|no|without)\b)[^.;#]){{0,20}}\b(?:will not do|not (?:allowed|acceptable|permitted|ok\w*|on)|forbidden|banned|not (?:enough|sufficient)|too little|insufficient|useless|will not hold|no good|not acceptable|{_SLIPS}|let it|(?:gets?|is|becomes?|feels) (?:loose|shaky|unstable|slippery))"
 )
 
 
@@ -279,13 +283,13 @@ def relation(left: str, right: str) -> tuple[Kind, int, int]:
             match.start(),
             0,
         )
-    for pattern, plainly, denied, harm in (
-        (_ABOVE, "least", "most", _TOO_MUCH),
-        (_BELOW, "most", "least", _TOO_LITTLE),
+    for pattern, plainly, denied, harm, begins in (
+        (_ABOVE, "least", "most", _TOO_MUCH, _BEGINS),
+        (_BELOW, "most", "least", _TOO_LITTLE, _BEGINS_BELOW),
     ):
         if match := pattern.search(left):
             clause_start = max(
-                (m.end() for m in _BEGINS.finditer(left[: match.start()])),
+                (m.end() for m in begins.finditer(left[: match.start()])),
                 default=0,
             )
             said = _UNCONCERNED.sub(lambda m: " " * len(m.group()), left)
