@@ -546,6 +546,25 @@ class TouchSettings(BenchmarkSettings):
 
 
 @dataclass(frozen=True, kw_only=True)
+class GrowthSettings(BenchmarkSettings):
+    """Compare the force that a reflex feels in one frame with the truth of simulated contacts.
+
+    Attributes:
+        contacts: Number of contacts, one random seed each.
+        first_seed: First seed. Seeds from 1000000 on are kept for benchmarks.
+        sensor: Sensor that measures shear: taxels or gelsight_mini_markers.
+    """
+
+    contacts: int = 300
+    first_seed: int = 1_000_000
+    sensor: str = "taxels"
+
+    def __post_init__(self) -> None:
+        if self.contacts < 1:
+            raise UsageError("--contacts must be at least 1")
+
+
+@dataclass(frozen=True, kw_only=True)
 class BallsSettings(BenchmarkSettings):
     """Measure how right the heights of real GelSight Mini frames of a pressed ball are.
 

@@ -31,6 +31,7 @@ BENCHMARKS: dict[str, tuple[type[settings.BenchmarkSettings], str]] = {
     "gel": (settings.GelSettings, "sensing.gel"),
     "contact": (settings.ContactSettings, "sensing.contact"),
     "touch": (settings.TouchSettings, "sensing.touch"),
+    "growth": (settings.GrowthSettings, "sensing.growth"),
     "noise": (settings.NoiseSettings, "sensing.noise"),
     "balls": (settings.BallsSettings, "balls.heights"),
     "ball-curve": (settings.BallCurveSettings, "balls.curve"),

@@ -94,7 +94,11 @@ def grid_of(sensor: SensorSpec) -> PointGrid:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class ContactShape:
-    """Shape of an indentation: its middle, rings about it, its ellipse, its slopes."""
+    """Shape of an indentation: its middle, rings about it, its ellipse, its slopes.
+
+    ``reach`` is the distance of a point from the middle, in the ellipse; a sphere's contact ends at
+    1.2.
+    """
 
     grid: PointGrid
     depth_mm: float
@@ -102,6 +106,7 @@ class ContactShape:
     height_mm: FloatArray
     middle: FloatArray
     middle_noise: float
+    reach: FloatArray  # (N,)
     rings: FloatArray  # (rings, N)
     angle: FloatArray
     centre: tuple[float, float]
@@ -138,6 +143,7 @@ class ContactShape:
             height_mm=height,
             middle=middle,
             middle_noise=float(np.sqrt((middle**2).sum() / 2)),
+            reach=reach,
             rings=rings,
             angle=np.arctan2(dy, dx),
             centre=(x0, y0),

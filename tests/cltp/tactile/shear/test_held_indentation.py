@@ -60,6 +60,18 @@ def test_a_deeper_contact_has_grown_with_and_without_drift(factor):
     assert growth(factor * BUMP_MM + DRIFT_MM) == pytest.approx(growth(factor * BUMP_MM), rel=0.03)
 
 
+def cap_mm(x_mm, depth_mm, radius_mm):
+    return depth_mm * np.clip(1 - ((X - x_mm) ** 2 + Y**2) / radius_mm**2, 0.0, None)
+
+
+@pytest.mark.parametrize("x_mm", [0.0, 3.0])
+def test_a_wide_contact_that_grows_wider_is_not_taken_for_drift(x_mm):
+    rest, wider = cap_mm(x_mm, 0.13, 4.5), cap_mm(x_mm, 0.26, 6.3)
+    alone = wider.sum() / rest.sum()
+    assert growth(wider, rest_mm=rest) == pytest.approx(alone, rel=0.1)
+    assert growth(wider + DRIFT_MM, rest_mm=rest) == pytest.approx(alone, rel=0.1)
+
+
 def test_a_new_frame_weighs_a_tenth_until_the_force_changes():
     held = HeldIndentation([frame(BUMP_MM)] * 10)
     held.see(frame(2 * BUMP_MM))
