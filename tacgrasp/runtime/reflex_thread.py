@@ -21,6 +21,7 @@ from cltp.tactile.shear.field import ShearField
 from policies.reflex import MARGIN_S, PERIODS
 from primitives.errors import RobotError
 from tacgrasp.drivers.scheduling import request_priority
+from tacgrasp.episodes.interrupts import delayed_interrupts
 from tacgrasp.rig.protocols import StreamingShearSensor
 
 POLL_S = 0.001
@@ -64,20 +65,26 @@ def beside_motion(
                 stop()
 
     thread = threading.Thread(target=run, name="reflex", daemon=True)
-    thread.start()
     try:
+        thread.start()  # within: Ctrl-C may come while it starts
         yield
     except (RobotError, TouchError) as error:
-        ended.set()
-        thread.join()
+        _end(thread, ended)
         if errors:
             raise errors[0] from error
         raise
     finally:
-        ended.set()
-        thread.join()
+        _end(thread, ended)
     if errors:
         raise errors[0]
+
+
+def _end(thread: threading.Thread, ended: threading.Event) -> None:
+    """Wait until a thread that may have started has ended; another Ctrl-C waits too."""
+    ended.set()
+    with delayed_interrupts():
+        if thread.ident is not None:
+            thread.join()
 
 
 def _frames(

@@ -1,5 +1,7 @@
 """The reflex beside a motion in real time: its frames, its errors, and every way that it ends."""
 
+import os
+import signal
 import threading
 import time
 
@@ -148,3 +150,35 @@ def test_whatever_ends_the_motion_nothing_is_commanded_afterwards(sensor, arm, e
     count = len(beats)
     time.sleep(0.1)
     assert len(beats) == count
+
+
+def test_ctrl_c_while_the_thread_starts_ends_it(sensor, arm, monkeypatch):
+    start = threading.Thread.start
+
+    def interrupted(thread):
+        start(thread)
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(threading.Thread, "start", interrupted)
+    with pytest.raises(KeyboardInterrupt), beside_motion(sensor, PERIOD_S, print, arm.stop):
+        pytest.fail("the motion has begun")
+    assert not running()
+
+
+def test_a_second_ctrl_c_waits_until_the_thread_has_ended(sensor, arm):
+    began, commanded = threading.Event(), []
+
+    def beat(_, __):
+        if not began.is_set():
+            began.set()
+            time.sleep(0.2)  # a write to the gripper
+            os.kill(os.getpid(), signal.SIGINT)  # the second one
+            time.sleep(0.2)
+            commanded.append(True)
+
+    sensor.field = frame()
+    with pytest.raises(KeyboardInterrupt), beside_motion(sensor, PERIOD_S, beat, arm.stop):
+        assert began.wait(5.0)
+        raise KeyboardInterrupt
+    assert commanded
+    assert not running()
