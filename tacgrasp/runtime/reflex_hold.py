@@ -64,8 +64,8 @@ class ReflexHold:
     Attributes:
         memory: What the reflex remembers.
         newest_n: Force felt in the newest frame alone, from the first frame of the hold on [N];
-            None where that is not known, of a light contact and of a standing object.
-        standing: Whether a support still catches the object.
+            None where that is not known, of a light contact and of an object that stands.
+        standing: Whether the object is lifted off, and a support may still catch it.
         is_rocked: Whether the object is rocked, which looks like a slip in some frames; it then
             takes a sure one.
         is_found: Whether a lift-off before has found about the force that holds the object.
@@ -142,7 +142,8 @@ class ReflexHold:
 
         None where it can't be told: no frame, no contact, or the unit's noise is still measured.
         While pads may slide along a standing object, the indentation changes with the place; its
-        force is then that at rest times the growth of the command.
+        force is then that at rest times the growth of the command, until it hangs and has been seen
+        at rest.
         """
         self._began_n = self._began_n or commanded_n
         if self._rests:
@@ -150,7 +151,7 @@ class ReflexHold:
             self.renew()
         if self._hangs:
             self._hangs, self.hanging = False, True
-            self._quiet, self._quiet_n, self._indentation = [], [], None
+            self._quiet, self._quiet_n, self._indentation, self._gauge = [], [], None, None
         self.newest_n = None if field is None else self._feel_newest(field)
         self.cues = None if field is None else self._see(field, commanded_n)
         if field is None or self.cues is None:
@@ -172,7 +173,7 @@ class ReflexHold:
                 slip = max(slip, held.way_mm / least_mm - 1.0)
         if slip > 0:
             self.slipped_s = now_s
-        if self.standing:
+        if self.standing and (held is None or not self.hanging):
             growth: float | None = commanded_n / self._began_n
         else:
             growth = None if held is None else held.growth
@@ -200,7 +201,8 @@ class ReflexHold:
             self._indentation.see(field)
         if self._gauge is not None and self._gauge is not self._indentation:
             self._gauge.see(field)
-        growth = None if self._gauge is None or self.standing else self._gauge.newest_growth
+        may_slide = self.standing and not self.hanging
+        growth = None if self._gauge is None or may_slide else self._gauge.newest_growth
         return None if growth is None or self._felt_n is None else self._felt_n * growth
 
     def _see(self, field: ShearField, commanded_n: float) -> ShearCues | None:

@@ -194,3 +194,16 @@ def test_frames_of_a_lowered_command_rest_at_less(rng):
         told, _ = hold.felt_and_slip(frame(rng, 0.0, depth_mm=0.04), k * PERIOD_S, 0.15)
     assert told == pytest.approx(0.5 * FELT.value, rel=0.1)
     assert hold.newest_n == pytest.approx(0.5 * FELT.value, rel=0.15)
+
+
+def test_the_force_of_what_hangs_is_felt_again_in_a_lift_off(see):
+    felt = Interval(value=0.6, low=0.5, high=0.8)
+    hold = ReflexHold(TERMS, felt, Judge())
+    see(hold, np.zeros(QUIET_FRAMES))
+    hold.standing = True
+    see(hold, np.zeros(5), depth_mm=0.16)  # pads that slide along it show anything
+    assert hold.newest_n is None
+    hold.hang()
+    see(hold, np.zeros(QUIET_FRAMES))
+    see(hold, np.zeros(1), depth_mm=0.16)  # a gripper that has changed
+    assert hold.newest_n == pytest.approx(1.2, rel=0.2)
