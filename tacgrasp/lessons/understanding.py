@@ -32,6 +32,7 @@ from tacgrasp.lessons.dialogue.choices.named import loosely_named
 from tacgrasp.lessons.dialogue.choices.own_words import in_its_words
 from tacgrasp.lessons.dialogue.clauses.clauses import clauses_of, judged_as_one, unfelt
 from tacgrasp.lessons.dialogue.clauses.replies import replied
+from tacgrasp.lessons.dialogue.clauses.reworded import reworded
 from tacgrasp.lessons.dialogue.clauses.speech import asked_in_speech
 from tacgrasp.lessons.dialogue.clauses.verdicts import is_doubted_statement
 from tacgrasp.lessons.dialogue.clauses.worded_amounts import in_class_words, without_remark
@@ -174,6 +175,9 @@ def understood_by_grammar(question: str, before: str = "") -> ReadQuestion | Non
     mark are asked together.
     """
     question = compared_aright(with_plain_numbers(question))
+    said = reworded(question)
+    if said and (read_so := understood_by_grammar(said, before)):
+        return read_so
     if rounding := rounding_of(question):
         return _rounded(understood_by_grammar(rounding.question, before), rounding)
     if stated := denied_statement(question):
@@ -308,6 +312,7 @@ def read_by_model(writer: QueryWriter, question: str, before: str = "") -> ReadQ
         read = read_by_model(writer, asked_alone, before)
         return read and _in_class_words(read)
     question = respelled(compared_aright(question))
+    question = reworded(question) or question
     if rounding := rounding_of(question):
         return _rounded(read_by_model(writer, rounding.question, before), rounding)
     if is_beyond(question):

@@ -68,6 +68,8 @@ _ADDRESS = re.compile(
 _THANKS = re.compile(
     r"[\s,.]+(?:please|quick|quickly|pls|plz|thanks|thank you|thx|mate|buddy|robot|"
     r"(?:mister|mr|dear) \w+|sir|my friend|"
+    r"(?:young|old|good|dear|clever|my) (?:man|lady|fellow|boy|girl|chap|lad|machine|robot|sir)|"
+    r"boss|doc|chief|pal|dude|bro|man|captain|"
     r"if you (?:please|would|do not mind|don['’]t mind))\s*[?.!]*$",
     re.I,
 )

@@ -209,6 +209,11 @@ _CHANGES = re.compile(
 """What a mass may be besides that of the object."""
 
 
+_IS_THAT = re.compile(
+    r"(?:it|this|that)(?:['’]s| is| weighs| has)\b[^.?!]*\d+ ?(?:k?g|grams?|kilos?)\b", re.I
+)
+"""'Will it slip? It's the 35 g one.'"""
+
 _NOT_SO = re.compile(
     r"\b(?:(?:is|was|are|were)(?:n['’]?t| not)|(?:does|do|did)(?:n['’]?t| not) (?:weigh|have|be)|"
     r"never was|no longer)\b[^.;?,]*\d|"
@@ -234,7 +239,8 @@ def _told_freely(text: str) -> tuple[Told, str] | None:
     stated = [each for each in sentences if not each.endswith("?") and not _ASKS.match(each)]
     asked = " ".join(each for each in sentences if each not in stated)
     words = " ".join(stated)
-    if not stated or sentences[: len(stated)] != stated:
+    is_last = len(stated) == 1 and sentences[-1:] == stated and _IS_THAT.match(words)
+    if not stated or not (sentences[: len(stated)] == stated or is_last):
         return None
     if not _STATES.search(words):
         return None

@@ -52,6 +52,7 @@ _TURN = (
 )
 _TIMES: Mapping[str, str] = {
     "0.5": r"halve[ds]?|halving|cut in half|cut by half|divided by two|half as|dropped to half",
+    "0.25": r"quartered|quartering|cut to a quarter|divided by four",
     "2": r"double[ds]?|doubling|multiplied by two|grew to (?:double|twice)(?: the size)?|twice as",
     "3": r"triple[ds]?|tripling|trebled?|trebling|multiplied by three|(?:three times|thrice) as",
     "4": r"quadruple[ds]?|quadrupling|(?:four times) as",

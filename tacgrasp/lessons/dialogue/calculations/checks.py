@@ -346,7 +346,8 @@ def _near(asked: AskedWords, words: str) -> str | None:
 
 def _apart(asked: AskedWords, found: re.Match[str]) -> str | None:
     """How much one term is above or below another one, against a number or a percentage."""
-    pair, by = _pair(asked, found["a"], found["b"]), asked.term(found["c"])
+    pair = _pair(asked, found["a"], found["b"], is_above=bool(found["up"]))
+    by = asked.term(found["c"])
     if pair is None or by is None:
         return None
     more, less = pair if found["up"] else pair[::-1]

@@ -31,9 +31,23 @@ _WHICH = re.compile(
     r"our)\b)))? "
     r"(?P<a>.+) or (?P<b>.+)"
 )
+_AWAY = r"(?:further|farther)(?: (?:away|off))? from"
+_FARTHER = re.compile(
+    rf"(?:(?:is|are|does|do|was) )?(?P<a>(?!which|what).+?) {_AWAY} (?P<b>.+) or(?: {_AWAY})?"
+    r"(?: from)? (?P<c>.+)|"
+    rf"(?:which|what)(?: of (?:these|them|the two))? is {_AWAY} (?P<a2>.+?) "
+    r"(?P<b2>(?:the |our |#\d).+) or (?P<c2>.+)"
+)
 _NEARER = re.compile(
     r"(?:(?:is|are|does|do|was) )?(?P<a>.+?)(?: (?:sit|lie|lying|stand|be|stay|sitting))? "
     r"(?:nearer|closer)(?: to)? (?P<b>.+) or(?: (?:closer|nearer))?(?: to)? (?P<c>.+)"
+)
+_THREE = re.compile(
+    r"(?:which|what)(?: one)?(?: of (?:these|the|those) (?:#\d+|three))? is (?:the )?"
+    r"(?:(?P<more>greatest|largest|biggest|highest|strongest|longest|most)|"
+    r"smallest|lowest|least|weakest|shortest) "
+    r"(?P<a>(?:the |our )?\S+(?: \S+){0,5}?) (?P<b>(?:the |our |#\d)\S*(?: \S+){0,5}?) or "
+    r"(?P<c>.+)"
 )
 _WHICH_NEARER = re.compile(
     r"(?:which|what)(?: of (?:these|them|the two))? (?:is|are|does|do) (?P<a>.+?) "
@@ -122,7 +136,8 @@ def calculated_choice(asked: AskedWords) -> Calculated | None:
         a, b, how = (two[name] or two[f"{name}2"] for name in ("a", "b", "how"))
         asked = replace(asked, words=f"which is {how} {a} or {b}")
     for reader in (
-        _which, _which_end, _nearer, _scale_half, _over_or_under, _step, _back, _half, _covered,
+        _which, _of_three, _which_end, _nearer, _farther, _scale_half, _over_or_under, _step, _back,
+        _half, _covered,
     ):  # fmt: skip
         if found := reader(asked):
             return found
@@ -150,21 +165,50 @@ def _which(asked: AskedWords) -> Calculated | None:
     return _chosen(found["a"], f"{a} {sign} {b}", found["b"], asked)
 
 
+def _of_three(asked: AskedWords) -> Calculated | None:
+    """The largest or the smallest of three terms."""
+    if (found := _THREE.fullmatch(asked.words)) is None:
+        return None
+    names = [found[each] for each in "abc"]
+    terms = [term for each in names if (term := asked.term(each))]
+    if len(terms) < len(names) or len({term.dimension for term in terms}) > 1:
+        return None
+    if not any(term.has_quantity for term in terms):
+        return None
+    a, b, c = (term.factor for term in terms)
+    sign = ">=" if found["more"] else "<="
+    said = [repr(asked.said(_ARTICLE.sub("", each))) for each in names]
+    rest = f"{said[1]} if {b} {sign} {c} else {said[2]}"
+    truth = f"{said[0]} if {a} {sign} {b} and {a} {sign} {c} else {rest}"
+    return Calculated(truth=truth, unit=None)
+
+
 def _nearer(asked: AskedWords) -> Calculated | None:
+    """The one of two terms that a third is nearer to."""
     patterns = (_WHICH_NEARER, _NAMED_NEARER, _NEARER)
     found = next(filter(None, (each.fullmatch(asked.words) for each in patterns)), None)
-    if found is None:
+    return _by_distance(asked, *(found[name] for name in "abc"), sign="<") if found else None
+
+
+def _farther(asked: AskedWords) -> Calculated | None:
+    """The one of two terms that a third is farther from."""
+    if (found := _FARTHER.fullmatch(asked.words)) is None:
         return None
-    b, c = shared_noun(asked, found["b"], found["c"])
-    near, far = asked.term(b), asked.term(c)
-    if near is None or far is None:
+    return _by_distance(asked, *(found[name] or found[f"{name}2"] for name in "abc"), sign=">")
+
+
+def _by_distance(asked: AskedWords, a: str, b: str, c: str, *, sign: str) -> Calculated | None:
+    """The second of three phrases where its distance from the first is less, or more, by a sign."""
+    names = shared_noun(asked, b, c)
+    one, other = (asked.term(name) for name in names)
+    if one is None or other is None:
         return None
-    subject = asked.term(found["a"], beside=far if far.has_quantity else near)
-    pairs = [alike(subject, each) if subject else None for each in (near, far)]
+    subject = asked.term(a, beside=other if other.has_quantity else one)
+    pairs = [alike(subject, each) if subject else None for each in (one, other)]
     if pairs[0] is None or pairs[1] is None:
         return None
-    to_b, to_c = (f"abs({a.expression} - {other.factor})" for a, other in filter(None, pairs))
-    return _chosen(found["b"], f"{to_b} < {to_c}", found["c"], asked)
+    to_b, to_c = (f"abs({a.expression} - {b.factor})" for a, b in filter(None, pairs))
+    return _chosen(b, f"{to_b} {sign} {to_c}", c, asked)
 
 
 def _which_end(asked: AskedWords) -> Calculated | None:

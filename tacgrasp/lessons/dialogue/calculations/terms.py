@@ -195,8 +195,8 @@ _TIMES = re.compile(r"(#\d+) (?:times|fold) (.+)")
 _PARTS_OF = re.compile(r"(#\d+) (thirds|quarters|fifths|eighths|tenths) of (.+)")
 _PARTS = {"thirds": 3, "quarters": 4, "fifths": 5, "eighths": 8, "tenths": 10}
 _MULTIPLE = re.compile(rf"({'|'.join(_MULTIPLES)}) (?:of |as \w+ as )?(.+)")
-_MADE = {"doubled": "2", "halved": "0.5", "tripled": "3"}
-_MADE_SO = re.compile(r"(?:(doubled|halved|tripled) (.+)|(.+) (doubled|halved|tripled))")
+_MADE = {"doubled": "2", "halved": "0.5", "tripled": "3", "quartered": "0.25", "quadrupled": "4"}
+_MADE_SO = re.compile(rf"(?:({'|'.join(_MADE)}) (.+)|(.+) ({'|'.join(_MADE)}))")
 _MINUS = re.compile(r"(?:minus|negative) (.+)")
 _SO_OFTEN = re.compile(r"(.+) times (#\d+)")
 

@@ -172,7 +172,8 @@ STEP = WordScale(
             r"keep(?: (?:it|going|the (?:force|grip)))?"
             r"(?: (?:as it is|there|like this|steady|so))?|stay(?: (?:put|there|as it is))?|"
             r"leave (?:it|things)(?: (?:be|alone|as it is|as they are|there|so))?|do nothing|"
-            r"wait|stop(?: here)?|neither|stand pat|sit tight|maintain(?: it)?"
+            r"wait|stop(?: here)?|neither|stand pat|sit tight|maintain(?: it)?|fine|ok(?:ay)?|"
+            r"(?:just )?right|enough|as it is"
         ),
     }
 )
