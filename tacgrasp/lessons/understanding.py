@@ -32,7 +32,6 @@ from tacgrasp.lessons.dialogue.choices.named import loosely_named
 from tacgrasp.lessons.dialogue.choices.own_words import in_its_words
 from tacgrasp.lessons.dialogue.clauses.clauses import clauses_of, judged_as_one, unfelt
 from tacgrasp.lessons.dialogue.clauses.replies import replied
-from tacgrasp.lessons.dialogue.clauses.reworded import reworded
 from tacgrasp.lessons.dialogue.clauses.speech import asked_in_speech
 from tacgrasp.lessons.dialogue.clauses.verdicts import is_doubted_statement
 from tacgrasp.lessons.dialogue.clauses.worded_amounts import in_class_words, without_remark
@@ -65,6 +64,7 @@ from tacgrasp.lessons.dialogue.query import (
     query_of,
     read_query,
 )
+from tacgrasp.lessons.dialogue.rewordings.reworded import reworded
 from tacgrasp.lessons.dialogue.rules.advised import advised, step_asked
 from tacgrasp.lessons.dialogue.rules.elsewhere import of_elsewhere, of_gripper, of_outcome
 from tacgrasp.lessons.dialogue.rules.friction import frictional

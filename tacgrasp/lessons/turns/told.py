@@ -107,6 +107,8 @@ def told_in(text: str, about: Meaning | None = None) -> tuple[Told, str] | None:
         about: What was asked for, or told, before it: what a correction is of.
     """
     text = with_plain_numbers(text.strip())
+    if not _ASKS.match(text):
+        text = _RUN_ON.sub(r"\g<told>. ", text)
     if _WHAT_IF.match(text):
         text = text.rstrip("? ")
     corrected = _CORRECTED.fullmatch(text)
@@ -208,6 +210,13 @@ _CHANGES = re.compile(
 )
 """What a mass may be besides that of the object."""
 
+
+_RUN_ON = re.compile(
+    r"(?P<told>\b(?:weighs|weigh|is|are) (?:about )?\d+(?:[.,]\d+)? ?(?:k?g|grams?|kilos?)),? "
+    r"(?=(?:could|can|would|will|does|do|is) (?:you|we|it|this|that|the grip)\b)",
+    re.I,
+)
+"""'My hamster weighs 30 g could you hold it'."""
 
 _IS_THAT = re.compile(
     r"(?:it|this|that)(?:['’]s| is| weighs| has)\b[^.?!]*\d+ ?(?:k?g|grams?|kilos?)\b", re.I

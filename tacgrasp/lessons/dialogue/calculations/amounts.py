@@ -103,6 +103,13 @@ _OWN_UNITS: Mapping[str, str] = {"area": "mm²", "volume": "mm³"}
 """Units in which answers give what only a calculation has."""
 
 
+_HELD_BY = re.compile(
+    r"\b(?:would|could|can|will) (?:it|we|you|i|the grip|the gripper) (?:then |still )?(?:hold|carry|"
+    r"lift|support|bear)$"
+)
+"""'How many grams would it hold?', which is what the force holds and not what weighs as much."""
+
+
 def calculated_amount(asked: AskedWords) -> Calculated | None:
     """The number that a question asks to calculate; None where it asks for none."""
     if alone := _OF_FORCE.fullmatch(asked.words) or _ON_GAUGE.fullmatch(
@@ -148,6 +155,8 @@ def amount_of(term: Term, asked: AskedWords) -> Calculated | None:
     if UNITS[unit].dimension == "force" and term.dimension == "mass":
         return Calculated(truth=in_newtons(term).expression, unit=unit)
     if UNITS[unit].dimension == "mass" and term.dimension == "force":
+        if _HELD_BY.search(asked.words):
+            return Calculated(truth=f"{term.factor} / gram_n", unit=unit)
         return Calculated(truth=f"{term.factor} / {GRAVITY_N_PER_G:g}", unit=unit)
     if UNITS[unit].dimension == "area" and "area_percent" in expression and not term.is_sum:
         return Calculated(truth=in_mm2(term).expression, unit=unit)

@@ -53,7 +53,7 @@ _MAXIMUM = r"(?:maximum|max|most|highest|largest)"
 _FORCE = r"(?: (?:force|grip|squeeze|pressure))"
 _LIMIT = (
     rf"(?:(?:force|grip|squeeze|hard|upper|safety|absolute|maximum|max|never exceed|{_ALLOWED}) )*"
-    rf"(?:limit|ceiling|cap)(?: (?:force|value|line|mark|figure))?|"
+    rf"(?:limit|ceiling|cap|cut ?off)(?: (?:force|value|line|mark|figure))?|"
     rf"never exceed(?: (?:limit|value|force|mark|figure|line|level|threshold|number))?|"
     rf"{_ALLOWED} (?:{_MAXIMUM}{_FORCE}?|force)|{_MAXIMUM} {_ALLOWED}{_FORCE}?|"
     rf"{_MAXIMUM}{_FORCE} (?:that is )?{_ALLOWED}|limiting force|force (?:at|of) the limit|"
@@ -94,7 +94,9 @@ _NAMED: Mapping[str, tuple[str, str]] = {
         "force_n", "force",
     ),
     rf"(?:{_LIMIT})(?: {_NEVER})?": ("limit_n", "force"),
-    rf"(?:force|value|grip|figure|number|mark|line|squeeze) {_NEVER}": ("limit_n", "force"),
+    rf"(?:force|value|grip|figure|number|mark|line|squeeze|cut ?off) {_NEVER}": (
+        "limit_n", "force",
+    ),
     _ends(_LOW): ("band_low_n", "force"),
     r"(?:agreed|wanted|required|requested|desired) (?:minimum|min)(?: force)?|"
     rf"(?:least|lowest|smallest|minimum|weakest){_FORCE}{_AGREED}": ("band_low_n", "force"),

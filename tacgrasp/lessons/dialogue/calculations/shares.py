@@ -109,6 +109,7 @@ _THICK = re.compile(
     r"cushion) (?:is|were|was) (?P<b>#\d+ \w+) thick(?: on this one| here)? (?:what|how many|"
     rf"which) {PARTS} of (?:it|that|this|the (?:thickness|gel))\b.*"
 )
+_NAMED = re.compile(r"\bstiffness\b|\bcompliance\b(?= (?:of|in|as|from|here|now)\b|$)")
 _STIFFNESS = re.compile(
     r"(?:(?:give|tell|state|what|is|are|me|how|many|the|that|it|work|find|now|please|does|come|"
     r"to) )*"
@@ -201,7 +202,7 @@ def stiffness(asked: AskedWords) -> Term | None:
             (unit_of(found[1]) for found in _MANY.finditer(words)), ""
         )
         unit = f"{one}/{unit_of(each[1])}"
-    elif not unit and (named := re.search(r"\b(?:stiffness|compliance)\b", words)):
+    elif not unit and (named := _NAMED.search(words)):
         unit = "N/mm" if named[0] == "stiffness" else "mm/N"
     dimensions = [UNITS[part].dimension for part in unit.split("/") if part in UNITS]
     expression = {

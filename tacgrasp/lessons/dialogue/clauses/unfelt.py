@@ -147,7 +147,9 @@ _UNKNOWN: Mapping[str, str] = {
         r"lot)|brand|part number|model number|(?:its|his|her|the) name|called)\b"
     ),
     "trait": (
-        r"\b(?:pulse|heart ?beat|alive|dead|asleep|sick|ill|unwell|in pain|hurting|scared|afraid|"
+        r"\b(?:pulse|breath\w*|vaccinated|bak(?:ed|ing)|cooked|boiled|roasted|fried|raw|"
+        r"(?:been|being|get|got) fired|heart ?beat|alive|dead|asleep|sick|ill|unwell|in pain|"
+        r"hurting|scared|afraid|"
         r"happy|hungry|pregnant|ticklish|(?:boy or (?:a )?girl|male or female|he or (?:a )?she|"
         r"girl or (?:a )?boy)|tired|healthy|fragile|delicate|brittle|breakable|defective|broken|"
         r"out of order|work(?:s|ing)? (?:properly|"

@@ -6,8 +6,9 @@
     Shallow or deep? I'd call anything under 1 mm shallow.
     Tighten or loosen?                                   To get into the band, tighten or loosen?
 
-Not here: address, thanks and tags (``tacgrasp.lessons.dialogue.plainer``), what tells of
-circumstances (``tacgrasp.lessons.dialogue.clauses.speech``).
+Not here: phrases inside a question (``phrases``), address, thanks and tags
+(``tacgrasp.lessons.dialogue.plainer``), what tells of circumstances
+(``tacgrasp.lessons.dialogue.clauses.speech``).
 """
 
 from __future__ import annotations
@@ -16,11 +17,17 @@ import re
 from collections.abc import Callable
 
 from tacgrasp.lessons.dialogue.plainer import AUXILIARY
+from tacgrasp.lessons.dialogue.rewordings.phrases import with_plain_phrases
 
-_UNFELT_SIGNS = r"(?!.*\b(?:signs?|directions?|units?|numbers?|figures?|digits|decimals?)\b)"
+_UNFELT_SIGNS = (
+    r"(?!.*\b(?:signs?|directions?|units?|numbers?|figures?|digits|decimals?|left|right|side\w*|"
+    r"way|which|whether|minus)\b)"
+)
 _ASIDE = (
     r"(?:(?:setting|putting|leaving|laying) (?P<a>[^,:;?]+?) aside|"
     r"(?:setting|putting|leaving|laying) aside (?P<b>[^,:;?]+?)|"
+    r"(?:ignoring|disregarding|forgetting(?: about)?|regardless of|apart from) (?P<d>[^:;?]+?)"
+    rf"(?=, (?:how|what|where|which|{AUXILIARY})\b)|"
     r"(?:i am|i['’]m|we are|we['’]re|this is) (?:not|n['’]t) (?:asking|interested|after|enquiring|"
     r"talking|about)(?: (?:about|in|for|after))? (?P<c>[^,:;?.]+?))"
 )
@@ -45,18 +52,6 @@ _NEITHER = re.compile(
     r"(?:exceed|surpass|pass|undercut|undershoot|overshoot)\w*) nor (?:does it |has it )?"
     r"(?P<other>(?:rise|go|climb|lie|sit|stay|fall|drop|risen|gone)\w* (?:above|below|over|under)|"
     r"(?:exceed|surpass|pass|undercut|undershoot|overshoot)\w*)\b",
-    re.I,
-)
-_ALLOWED = re.compile(
-    r"\b(?:(?:our|my|your|the|its) (?:whole |full |total |force )*(?:allowance|quota|force budget)|"
-    r"(?:the )?(?:most |maximum )?(?:what|that) (?:it|we|you|i|they|the (?:grip|gripper|robot))"
-    r"(?:(?:['’](?:s|re|m))| is| are| am) (?:ever )?(?:allowed|permitted)"
-    r"(?: to (?:use|apply|exert|press(?: with)?|squeeze(?: with)?|put on))?)(?! to\b)",
-    re.I,
-)
-_MEANS_NUMBER = re.compile(
-    r"\b(?P<sign>than|over|above|under|below|exceeds?|exceeding) (?:an?|the) [^,;?]*?,? ?\(?"
-    r"(?:i\.? ?e\.?|that is|meaning|namely)[,:]? (?P<number>[\d.,]+ ?[^\s,?)]+)\)?",
     re.I,
 )
 _WHICH_TOO = re.compile(
@@ -98,48 +93,19 @@ _FROM_THAT = re.compile(
 )
 """'My last one read 2.3 N. How far off is this one from that?'"""
 
+_FORBIDDEN = re.compile(
+    r"(?=[^?]*\b(?:never|not|nothing|no more|don['’]t|mustn['’]t)\b)[^?]*\b(?:past|over|above|"
+    r"beyond|exceed\w*|more than) (?P<number>\d+(?:[.,]\d+)? ?(?P<unit>[a-zµ%²]+))[^?]*"
+    r"[.;,:–—-]+ (?:have|am|are|did|do) (?:i|we|you)[?.! ]*",
+    re.I,
+)
+"""'The card says never past 2.5 N. Have I?'"""
+
 _MEASURES = (
     (r"m?n|newtons?|millinewtons?", "the force"),
     (r"mm|[µu]m|microns?|millimet\w+|micromet\w+", "the depth"),
     (r"%|percent|mm²|mm2", "the contact area"),
 )
-_OF_EVERY = (
-    (re.compile(r"\bratio (?:of )?(?P<a>[a-z]+) ?[:/] ?(?P<b>[a-z]+)\b", re.I),
-     r"ratio of \g<a> to \g<b>"),
-    (re.compile(r"\bits own weight (?P<verb>is|was) (?P<rest>(?:the|our|this) (?:[a-z]+ )?"
-                r"(?:force|grip|squeeze))(?: on (?:this \w+|the \w+|it))?", re.I),
-     r"the object's weight \g<verb> \g<rest>"),
-    (re.compile(r"(?<=as much as )(?:this|the|our|my) (?:grip|gripper|hand|robot) "
-                r"(?:presses|squeezes|pushes|clamps|grips)(?: with)?\b", re.I), "the force"),
-    (re.compile(r"\ban? (?:[a-z]+ )?(?:thing|form|shape|something)(?: shaped)? like (?=an? )",
-                re.I), ""),
-    (re.compile(r"how many (?:%|per ?cent) (?P<side>above|below|over|under) (?P<b>[^?]+?) "
-                r"(?:is|are|does) (?P<a>(?:the |our )?(?:[a-z]+ )?[a-z]+)(?: lie)?(?=[?.! ]*$)",
-                re.I),
-     r"by what percentage is \g<a> \g<side> \g<b>"),
-    (re.compile(r"(?<=\w)\s*[,;:–—-]+ (?:all |just |only )?(?:two|three|four) (?:numbers|figures|"
-                r"values|readings)(?: please)?(?=[?.! ]*$)", re.I), ""),
-    (re.compile(r"(?<=\w), (?:or|no)(?=\s*\?+\s*$)", re.I), ", right"),
-    (re.compile(r"\b(?P<name>depth|force|area|mass|x|y)_(?:mm|n|percent|g)\b", re.I),
-     r"\g<name>"),
-    (re.compile(r"^assert (?P<what>[^?]+?)[,;–—-]* *(?:[–—-] )?(?:would|will|does) (?:that|it) "
-                r"(?:pass|hold|fail not)", re.I), r"is it true that \g<what>"),
-    (re.compile(r"^(?:do|does|is|are) (?P<who>(?:the |our )?[a-z]+) (?:still )?need(?:s|ing)? "
-                r"(?P<least>at least|more than|less than|over|under) (?:another |an? (?:extra|"
-                r"further) )?(?P<number>[\d.,]+ ?[a-z]+)(?: more| extra)? to "
-                r"(?:reach|get (?:in)?to|enter|be in|come into) (?:the )?(?:force )?"
-                r"(?:band|range|window)", re.I),
-     r"is the lower end of the band minus the force \g<least> \g<number>"),
-    (re.compile(r"(?P<need>\b(?:how much|what) (?:grip|force|squeeze)\b[^?]*\b(?:needed|required|"
-                r"necessary|needs?|requires?)\b[^?]*?)(?:,? and|\?) (?:do|have) (?:we|you|i) "
-                r"(?:have |got |apply |press )?(?:it|that|enough|that much|so much)\b", re.I),
-     r"\g<need>? Is the hold strong enough for what it weighs"),
-    (re.compile(r"\b(?P<a>[a-z]+) or (?P<b>(?:an? )?[a-z]+),? or (?P<rest>(?:is it )?(?:neither|"
-                r"none of (?:them|those|these)|something else))\b", re.I),
-     r"\g<a>, \g<b> or \g<rest>"),
-    (re.compile(r"\bhow far (?:off|away|apart) is (?=[^,;.?]+ from )", re.I), "how far is "),
-    (re.compile(r"\bthe wh?ether\b", re.I), "the weather"),
-)  # fmt: skip
 _WANTS_TO_KNOW = re.compile(
     r"(?P<before>.+[,;.!–—-]) *(?:and |but |so |now )*(?:i|we|my \w+|the \w+)(?:['’]d)? "
     r"(?:just |only |really |merely )*(?:want|wants|need|needs|would like|like|would love|have|"
@@ -190,14 +156,6 @@ def reworded(question: str) -> str:
     return ""
 
 
-def _replaced(text: str) -> str:
-    text = _ALLOWED.sub("the limit", text)
-    text = _MEANS_NUMBER.sub(r"\g<sign> \g<number>", text)
-    for pattern, plain in _OF_EVERY:
-        text = pattern.sub(plain, text)
-    return text
-
-
 def _affirmed(text: str) -> str:
     """What two denials affirm: 'not unsafe' is safe, 'deny that' asks whether it is false."""
     text = _SAFE.sub(r"\g<head>safe", text)
@@ -224,7 +182,7 @@ def _without_aside(text: str) -> str:
     """A question without what it does not want to know."""
     if (found := _LEFT_OUT.fullmatch(text)) is None:
         return ""
-    left = found["a"] or found["b"] or found["c"]
+    left = found["a"] or found["b"] or found["c"] or found["d"]
     if not re.match(_UNFELT_SIGNS, left, re.I):
         return ""
     return _ASKING.sub("tell me ", found["rest"], count=1)
@@ -292,6 +250,13 @@ def _from_that(text: str) -> str:
     return f"How far is {what} from {found['number']}?" if found and what else ""
 
 
+def _forbidden(text: str) -> str:
+    """Whether what is felt is past the number that is forbidden."""
+    found = _FORBIDDEN.fullmatch(text)
+    what = _measured(found["unit"]) if found else ""
+    return f"Is {what} over {found['number']}?" if found and what else ""
+
+
 def _which_too(text: str) -> str:
     return "Which edges cut it?" if _WHICH_TOO.fullmatch(text) else ""
 
@@ -307,6 +272,6 @@ def _to_do(text: str) -> str:
 
 
 _READERS: tuple[Callable[[str], str], ...] = (
-    _affirmed, _neither, _without_aside, _told_apart, _called, _graded, _from_that, _which_too,
-    _to_do, _replaced, _wanted,
+    _affirmed, _neither, _without_aside, _told_apart, _called, _graded, _forbidden, _from_that,
+    _which_too, _to_do, with_plain_phrases, _wanted,
 )  # fmt: skip

@@ -3,7 +3,8 @@
 import pytest
 
 from tacgrasp.lessons.dialogue.answers import answer
-from tacgrasp.lessons.dialogue.clauses.reworded import reworded
+from tacgrasp.lessons.dialogue.rewordings.reworded import reworded
+from tacgrasp.lessons.turns.told import told_in
 from tacgrasp.lessons.understanding import understood_by_grammar
 from tests.fakes.question_scenes import FIRM, HELD, LIGHT
 
@@ -31,6 +32,20 @@ def query(question):
         ("Is the contact patch bigger than a 1-cent coin, i.e. 207 mm²?", "check area > #1 mm²."),
         ("Is it a circle thing like a doughnut?", "check shape ring."),
         ("edge cut? which", "word cut_sides."),
+        ("Ignoring the band, the limit and my feelings, how many newtons is it?",
+         "amount force N."),
+        ("The card says never squeeze an egg past 2.5 newtons, 6 minutes boil. Have I?",
+         "check force > #1 N."),
+        ("Something there and dug in more than a tenth of a mill?",
+         "calculate (contact) and (depth_mm > 0.1)."),
+        ("The force isn't as much as three times the band's lower end, is that right?",
+         "calculate force_n < 3 * band_low_n."),
+        ("Relative to the cutoff you mustn't cross: over or under?",
+         "calculate 'over' if force_n > limit_n else 'under'."),
+        ("Would it be unwise to lift?", "check not force within."),
+        ("Is the animal breathing?", "unknown trait."),
+        ("If the grip were doubled, how many grams would it hold?",
+         "calculate 2 * force_n / gram_n in g."),
         ("force, depth, area - three numbers",
          "amount force N; amount depth mm; amount area %."),
         ("The force is too small, or?", "check force below."),
@@ -101,6 +116,7 @@ def test_answers_have_the_words_of_the_question(question, words):
         "It's not unsafe to lift, is it?",
         "Setting aside the sign, how far is it sideways?",
         "Is it harder or softer?",
+        "Ignoring its direction, how far is it sideways?",
         "Reject if depth > 0.8 mm. Wood or steel?",
         "If it weighs 30 g, I want to know if it slips.",
         "Is the force 2 N, i.e. more than the limit?",
@@ -108,3 +124,15 @@ def test_answers_have_the_words_of_the_question(question, words):
 )
 def test_other_questions_stay(question):
     assert reworded(question) == ""
+
+
+@pytest.mark.parametrize(
+    ("text", "asked"),
+    [
+        ("My hamster weighs 30 grams could you hold it", "could you hold it"),
+        ("Is it going to slip? It's the 30 gram one.", "Is it going to slip?"),
+    ],
+)
+def test_a_mass_is_heard_beside_a_question_that_it_runs_into_or_follows(text, asked):
+    told, rest = told_in(text)
+    assert (told.mass_g, rest) == (30.0, asked)
