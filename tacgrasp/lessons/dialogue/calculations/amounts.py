@@ -104,8 +104,8 @@ _OWN_UNITS: Mapping[str, str] = {"area": "mm²", "volume": "mm³"}
 
 
 _HELD_BY = re.compile(
-    r"\b(?:would|could|can|will) (?:it|we|you|i|the grip|the gripper) (?:then |still )?(?:hold|carry|"
-    r"lift|support|bear)$"
+    r"\b(?:would|could|can|will) (?:it|we|you|i|the grip|the gripper) (?:then |still )?(?:hold|"
+    r"carry|lift|support|bear)$"
 )
 """'How many grams would it hold?', which is what the force holds and not what weighs as much."""
 
