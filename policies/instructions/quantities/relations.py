@@ -79,7 +79,10 @@ _LEAST_AFTER = re.compile(
     rf"(?:it|they|the \w+) (?:still |just |already )?{_SLIPS}\b)" + _OTHERS
 )
 _NO_VERB = r"\b(?:not|never)(?: (?:ever|please|just|even|go|get|be|rise|climb|push|press|squeeze|let|take|force|it|any))*"
-_END = r"(?=\s*(?:$|[.;,!)]))"
+_END = (
+    r"(?=\s*(?:$|[.;,!)])"
+    r"| (?:and(?! (?:above|below|beyond|over|under)\b)|but|because|since|so|please)\b)"
+)
 _NO_FURTHER = rf"{_NO_VERB} (?:exceed|over|above|beyond|past|further|higher|harder){_END}"
 """'1 N is plenty, do not go beyond'."""
 _NO_LESS = rf"{_NO_VERB} (?:below|under|beneath|lower){_END}"
