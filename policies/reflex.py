@@ -209,6 +209,8 @@ def _problem(reading: ReflexReading, period_s: float) -> str:
     age_s = reading.t_s - reading.captured_s
     if not age_s <= PERIODS * period_s + MARGIN_S:
         return f"the newest frame is {1000 * age_s:.0f} ms old"
+    if age_s < -MARGIN_S:
+        return f"the newest frame is stamped {-1000 * age_s:.0f} ms in the future"
     for name, number in (("felt force", reading.felt_n), ("slip", reading.slip)):
         if number is not None and not math.isfinite(number):
             return f"the {name} is {number}"

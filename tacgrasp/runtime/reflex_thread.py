@@ -93,7 +93,7 @@ def _frames(
     """New frames with the time of their capture; None for each period in which all are too old."""
     stale_s = PERIODS * period_s + MARGIN_S
     captured_s: float | None = None
-    began_s = time.monotonic()
+    known_s = time.monotonic()  # no frame is younger than its arrival, whatever its stamp says
     beat_s = -math.inf
     while not ended.wait(POLL_S):
         try:
@@ -103,8 +103,8 @@ def _frames(
         now_s = time.monotonic()
         at_s = None if field is None or field.stamp is None else field.stamp.monotonic_s
         if at_s is not None and at_s != captured_s:
-            captured_s = at_s
+            captured_s, known_s = at_s, min(at_s, now_s)
             yield field, at_s
-        elif now_s - max(beat_s, captured_s or began_s) > stale_s:
+        elif now_s - max(beat_s, known_s) > stale_s:
             beat_s = now_s - stale_s + period_s  # the next one a period later
             yield None, captured_s

@@ -152,6 +152,7 @@ def test_a_single_wrong_frame_takes_no_more_than_one_step():
     [
         ({"captured_s": None}, "no frame"),
         ({"captured_s": 10.0 - 2 * PERIOD_S - 0.021}, "ms old"),
+        ({"captured_s": 10.5}, "500 ms in the future"),
         ({"captured_s": math.nan}, "no frame"),
         ({"felt_n": math.nan}, "felt force is nan"),
         ({"felt_n": math.inf}, "felt force is inf"),

@@ -1,5 +1,6 @@
 """The reflex beside a motion in real time: its frames, its errors, and every way that it ends."""
 
+import dataclasses
 import os
 import signal
 import threading
@@ -100,6 +101,14 @@ def test_a_sensor_that_falls_silent_or_fails_is_told_again_and_again(sensor, arm
 
 def failing(*_):
     raise TouchError("the reflex was blind")
+
+
+def test_a_frame_that_stays_is_silence_whatever_its_stamp_says(sensor, arm):
+    seen = []
+    sensor.field = dataclasses.replace(frame(), stamp=Stamp(monotonic_s=1e9, wall_s=0.0))
+    with beside_motion(sensor, PERIOD_S, lambda field, _: seen.append(field), arm.stop):
+        poll(lambda: seen.count(None) >= 2)
+    assert seen[0] is sensor.field
 
 
 def test_a_reflex_that_fails_stops_the_arm_and_the_motion_ends_with_its_error(sensor, arm):
