@@ -11,7 +11,7 @@ from typing import TypeVar
 from primitives.errors import TorqueOffError
 from tacgrasp.base.errors import error_text
 from tacgrasp.config.schema import RunConfig, VerifyConfig
-from tacgrasp.episodes import EpisodeEnd, EpisodeError
+from tacgrasp.episodes import EpisodeEnd
 from tacgrasp.episodes.interrupts import delayed_interrupts
 from tacgrasp.episodes.record import TruthFacts
 from tacgrasp.rig.protocols import Rig
@@ -190,11 +190,11 @@ def _kept(rig: Rig, told: str) -> tuple[str, bool]:
 
 
 def _refusals(write: Callable[[], None]) -> list[str]:
-    """Write to the record; an error is returned, since it must not keep the robot from safety."""
+    """Write to the record; an error is returned, since neither safety nor the end may lack it."""
     try:
         write()
-    except EpisodeError as error:
-        return [str(error)]
+    except Exception as error:  # of a device too, whose state is recorded
+        return [error_text(error)]
     return []
 
 

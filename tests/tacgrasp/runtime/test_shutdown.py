@@ -123,3 +123,15 @@ def test_an_interrupt_while_the_gripper_opens_does_not_hide_how_it_ended(caplog)
         close(ended(rig, ends))
     assert "the gripper could not be opened: the fingers are stuck" in caplog.text
     assert ends[0].reason == "fault"
+
+
+def test_a_step_that_can_t_be_recorded_does_not_keep_the_record_from_its_end():
+    def unplugged(*_):
+        raise RobotError("the arm is unplugged")
+
+    rig, ends = Devices({}), []
+    ending = ended(rig, ends)
+    ending.steps.record_cut_short = unplugged
+    outcome = close(ending)
+    assert outcome.message == "180 s; the arm is unplugged"
+    assert [(end.reason, end.message) for end in ends] == [("fault", outcome.message)]
