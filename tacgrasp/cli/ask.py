@@ -156,12 +156,15 @@ def _contract(flags: AskFlags) -> Contract | None:
 
 
 def _answer(talk: Conversation, check: Callable[[str], None], question: str) -> Spoken:
+    """The answer to a question that is in English, by its words or because the grammar has it."""
     from policies import PolicyError
+    from tacgrasp.lessons.understanding import understood_by_grammar
 
     try:
         check(question)
     except PolicyError as error:
-        raise UsageError(str(error)) from None
+        if understood_by_grammar(question) is None:
+            raise UsageError(str(error)) from None
     return talk.ask(question)
 
 

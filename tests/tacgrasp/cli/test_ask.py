@@ -108,6 +108,20 @@ def test_a_question_is_read_in_plain_words_and_answered_on_what_is_felt(
     assert talker.prompts == ["how zorby's it"]
 
 
+def test_what_the_grammar_has_is_answered_whatever_words_the_model_knows(
+    talker: Writer, touch: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def refuse(text: str) -> None:
+        raise PolicyError("no word is known")
+
+    policy_factory.load_llm().check = refuse  # type: ignore[method-assign]
+    assert main(["ask", touch, "To bring the grip to 3 N, must I tighten or loosen?"]) == 0
+    assert capsys.readouterr().out.startswith(("Tighten", "Loosen"))
+    assert main(["ask", touch, "Fester oder lockerer?"]) == 2
+    assert "no word is known" in capsys.readouterr().err
+    assert talker.prompts == []
+
+
 def test_a_frame_is_read_beside_the_frame_of_its_untouched_gel(
     talker: Writer, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
