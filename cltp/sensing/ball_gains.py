@@ -22,6 +22,7 @@ from cltp.errors import TouchError
 from cltp.sensing.ball_presses import BallPress, SphericalCap, find_press, slopes_of
 from cltp.sensing.frames import Frame
 from cltp.sensing.photometric import GradientNet, Photometer
+from cltp.tactile.quantiles import median, spread_about
 
 FloatArray = NDArray[np.float64]
 
@@ -194,7 +195,7 @@ def press_gains(
 def _standard_error(gains: Sequence[float]) -> float:
     """Relative standard error of the median, from the median absolute deviation."""
     logs = np.log(gains)
-    spread = 1.4826 * float(np.median(np.abs(logs - np.median(logs))))
+    spread = spread_about(logs, median(logs))
     return 1.2533 * max(spread, LEAST_SPREAD) / math.sqrt(len(gains))
 
 

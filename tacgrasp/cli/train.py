@@ -55,6 +55,9 @@ class MethodsFlags:
 
     def train(self, stage: str, command: str) -> None:
         """Open the folders, the progress and the processes of a stage, and train in them."""
+        from cltp.data.dataset import read_header
+
+        read_header(self.data)  # what is no data set is refused before torch is loaded
         from tacgrasp.pretraining.methods import pretraining_run
 
         names = ("out", "data", "seed", "threads", "precision", "tensorboard")

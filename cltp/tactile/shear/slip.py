@@ -21,6 +21,7 @@ import numpy as np
 
 from cltp.errors import TouchError
 from cltp.tactile.cloud import FloatArray
+from cltp.tactile.quantiles import spread_about
 from cltp.tactile.shear.contact_shear import NUM_VALUES
 from cltp.tactile.shear.field import ShearField
 
@@ -212,7 +213,7 @@ def noise_of(fields: Sequence[ShearField]) -> tuple[float, float]:
     parts = np.concatenate(along), np.concatenate(depth)
     if not len(parts[1]):
         raise TouchError("no two frames of the hold share a point: check the sensor")
-    along_mm, depth_mm = (1.4826 * float(np.median(np.abs(part))) / 2**0.5 for part in parts)
+    along_mm, depth_mm = (spread_about(part, 0.0) / 2**0.5 for part in parts)
     return along_mm, depth_mm
 
 

@@ -134,6 +134,7 @@ def test_without_a_command_the_usage_is_printed_and_it_is_wrong_use() -> None:
         (["bench", "latency", "--json", "no/where.json"], "--json no/where.json can't be written"),
         (["bench", "strawberry", "--episodes", "0"], "--episodes must be at least 1"),
         (["bench", "gel", "--jsn", "x"], "did you mean --json"),
+        (["run", "strawberry"], "did you mean --task strawberry?"),
         (["describe", "x.npz", "--json", "x.json"], "x.json; --json takes no value"),
         (["eval", "--data", "nowhere"], "make them: tacgrasp data generate --set full"),
         (["eval", "zero-shot", "--data", "nowhere"], "make them: tacgrasp data generate --out"),
