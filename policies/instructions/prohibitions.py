@@ -23,7 +23,6 @@ from policies.instructions.quantities import MARK
 
 _ANY_MORE = re.compile(r"\b(gripped|grasped|held|touched|picked(?: up)?|lifted) any ?more\b")
 
-_HOLD = re.compile(rf"\b{words.any_of('hold')}\b")
 _OBJECT_WORD = re.compile(rf"(?:{words.any_of('fruit')}|gripper|fingers?|robot)")
 
 _INSTEAD = r"(?:instead of|rather than|except(?: for)?|save for|skip|omit|forgo|forego)"
@@ -134,7 +133,7 @@ def _is_asked_elsewhere(after: str, core: str, text: str) -> bool:
     forbidden = (
         f"{core} {' '.join(_COORDINATED.findall(after))} {''.join(_OTHERS_TURN.findall(after))}"
     )
-    return len(_HOLD.findall(_IDIOM.sub("", text))) > len(_HOLD.findall(forbidden))
+    return len(words.HOLD.findall(_IDIOM.sub("", text))) > len(words.HOLD.findall(forbidden))
 
 
 def _with_plain_words(sentence: str) -> str:
@@ -182,7 +181,7 @@ def _forbids(match: re.Match[str], text: str, *, is_passive: bool) -> bool:
         earlier = text[: text.find(said)] if said in text else ""
         is_about_it = bool(_ABOUT_IT.search(before)) and not is_passive
         # 'it must not move' wants a firm grip; 'don't move, only hold it'; 'grip it and don't move'
-        return not (is_about_it or has_other or _HOLD.search(earlier) or MARK in earlier)
+        return not (is_about_it or has_other or words.HOLD.search(earlier) or MARK in earlier)
     if not has_other:
         return True
     if _OTHER_THING.match(after) or (is_passive and _is_of_other_thing(before)):

@@ -50,13 +50,13 @@ _MUST_BE = re.compile(
 _ENGLISH, _FOREIGN = words.word_list("english"), words.word_list("foreign")
 _FOREIGN_MANNER = words.word_list("foreign_manner")
 _OFF = re.compile(rf"\b{words.any_of('off_domain')}\b")
-_HOLD = re.compile(rf"\b{words.any_of('hold')}\b")
 _OURS = re.compile(
     r"\b(?:straw ?berr(?:y|ies)|berr(?:y|ies)|fruits?|grips?|grasps?|squeeze|fingers|gripper|compression|clamping|pinch(?:ing)?)\b"
 )
 _THING = re.compile(
     r"\b(straw ?berr(?:y|ies)|berr(?:y|ies)|fruit|tomato|egg|peg|object|thing|sample|specimen|one)\b"
 )
+_A_LITTLE = re.compile(r"\b(?:just )?a touch\b(?! on\b)")
 _LIKE = re.compile(r"\b(?:like|as if|as though)\b[^,.;]*")
 _VERB_OBJECT = re.compile(
     rf"\b{words.any_of('hold')}(?: (?:up|on|onto|hold|of|to|over|out|me|us|down|firm\w*|tight\w*|gent\w*|soft\w*|light\w*|and|or|\w+ing))*"
@@ -136,7 +136,7 @@ def read_request(text: str) -> Request:
     """Read an instruction as a person wrote it."""
     clean = without_other_forces(in_digits(spelled(plain(text[:MAX_CHARACTERS]))))
     clean, numbers, stated = _meant(clean)
-    verb = _HOLD.search(numbers.rest)
+    verb = words.HOLD.search(_A_LITTLE.sub("", numbers.rest))
     thing = _THING.search(_LIKE.sub(" ", numbers.rest))
     return Request(
         text=text.strip(),
@@ -214,7 +214,7 @@ def _no_english(text: str) -> str:
         return NOT_ENGLISH
     tokens = [t for t in re.findall(r"[^\W\d_]+", text) if len(t) > 1]
     foreign = sum(t in _FOREIGN for t in tokens)
-    known = sum(t in _ENGLISH or bool(_HOLD.fullmatch(t)) for t in tokens)
+    known = sum(t in _ENGLISH or bool(words.HOLD.fullmatch(t)) for t in tokens)
     if (foreign and foreign >= known) or _FOREIGN_MANNER.intersection(tokens):
         return NOT_ENGLISH
     return ""
@@ -272,7 +272,7 @@ def _nothing_asked(numbers: Quantities) -> str:
 def _grips(sentence: str) -> bool:
     """Whether a sentence says how to grip, and speaks of gripping."""
     is_first = has_manner(" ".join(sentence.split()[:2]))
-    return has_manner(sentence) and (is_first or bool(_HOLD.search(sentence)))
+    return has_manner(sentence) and (is_first or bool(words.HOLD.search(sentence)))
 
 
 def _asks_manner(sentence: str) -> bool:

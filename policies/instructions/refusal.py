@@ -92,7 +92,6 @@ _ASKED = re.compile(
 _WEAK_STOP = re.compile(
     r"\b(?:wait|stay|leave it there|remain|pause|stand by|hold (?:it )?there)\b|^not move"
 )
-_HOLD = re.compile(rf"\b{words.any_of('hold')}\b")
 _STOP_FIRST = re.compile(
     r"(?:please|robot|hey|oi|no|ok|okay|just|now|you|oh|right|whoa|woah|quick|quickly|for \w+'?s? sake|sorry|god|everybody|everyone|eek|argh|er|um|[,!. ])*"
     r"\b(?:(?:full |dead |hard )?stop|halt|freeze|pause|abort|desist|hold it(?=(?: right| just)? there\b| ?[,;:!.–—-]+ ?(?:not yet|wait|stop|let me|there is|there are|(?:i|we) (?:need|have|must|forgot|dropped|left|still|lost|can not|did not|do not)|some(?:one|body))\b)|hold (?:up|everything|fire|your horses)|hang (?:on|fire)|whoa|woah|wait|time ?out|stand (?:by|down|still)|(?:stay|keep|hold|stop|remain) (?:still|put|there|where you are|right there|back|clear|out)|back off|not so fast|leave off|give me (?:a|one|two|half a|a couple of) (?:sec\w*|minutes?|moments?|mo|ticks?)|let go|get (?:back|off|out of (?:there|the way|it))|quit it|cut it out)\b"
@@ -159,7 +158,7 @@ def _contradicts(text: str) -> str:
     if match is None:
         return ""
     is_order = re.match(r"(?:apply|use|exert|put)", match.group())
-    return match.group() if is_order or _HOLD.search(text[: match.start()]) else ""
+    return match.group() if is_order or words.HOLD.search(text[: match.start()]) else ""
 
 
 def _clauses(text: str) -> list[str]:
@@ -254,7 +253,7 @@ def _releases(text: str) -> str:
         down = re.search(_PUT_DOWN, clause)
         if down is None or is_denied(clause[: down.start()]) or _FORCE_NOUN.search(down.group()):
             continue
-        if not _HOLD.search(text[: text.find(down.group())]):
+        if not words.HOLD.search(text[: text.find(down.group())]):
             return down.group().strip()
     return ""
 
@@ -298,7 +297,7 @@ def _stops(text: str) -> str:
                 is_after = (
                     _WEAK_STOP.search(match.group())
                     and not match.group().startswith("no")
-                    and (_HOLD.search(earlier) or MARK in earlier)
+                    and (words.HOLD.search(earlier) or MARK in earlier)
                 )
                 if is_after:
                     continue  # 'grip it and wait'

@@ -43,3 +43,7 @@ def groups(section: str) -> tuple[re.Pattern[str], ...]:
 def word_list(section: str) -> frozenset[str]:
     """The words of a section of plain words."""
     return frozenset(" ".join(line for group in _sections()[section] for line in group).split(" "))
+
+
+HOLD = re.compile(rf"\b{any_of('hold')}\b")
+"""A word that asks to take hold of something."""
