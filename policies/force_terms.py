@@ -25,6 +25,11 @@ with about 5 %, and the felt force varies by some percent from frame to frame.""
 BELOW_MOST = 0.9
 """Top of the band under a named most, as a fraction of it: room for the error of a felt force."""
 
+FIRMEST = 0.55
+"""Largest low end of a firm band under a named most, as a fraction of it. Our choice: a peg's force
+is felt to within a factor of 1.65, and what it may be at most stays below the limit, so that 0.6 of
+the limit is reached there."""
+
 ROUNDING = 0.99
 """Hard limit over a named most: '200 g' is 1.96 N to one reader and 1.961 N to another."""
 
@@ -105,7 +110,7 @@ def named_terms(forces: Sequence[Force], manner: Manner, task: ForceTerms) -> Fo
         return task  # it asks for nothing beyond the task's own
     elif most < math.inf:
         band = _under(BELOW_MOST * most, task.force_n)
-        band = band if task.needs else _lean(band, manner)
+        band = band if task.needs else _lean(band, manner, FIRMEST * most)
     else:
         low_n = ABOVE_LEAST * least
         high_n = task.force_n.high
@@ -208,11 +213,13 @@ def _under(top_n: float, task: Band) -> Band:
     return Band(low=low, high=high)
 
 
-def _lean(band: Band, manner: Manner) -> Band:
+def _lean(band: Band, manner: Manner, firmest_n: float) -> Band:
+    """The light or the firm part of a band, from ``firmest_n`` at most on."""
     if manner.sign < 0:
         return Band(low=band.low, high=max(band.middle, 1.3 * band.low))
     if manner.sign > 0:
-        return Band(low=min(band.middle, band.high / 1.3), high=band.high)
+        firm_n = min(band.middle, band.high / 1.3, firmest_n)
+        return Band(low=max(firm_n, band.low), high=band.high)
     return band
 
 

@@ -74,9 +74,17 @@ class GuardedGripper:
     @property
     def why_no_more(self) -> str:
         """Why no more than ``most_n`` is sent, and what lets more through, for people."""
+        factor, gain = self._limit_n / self.most_n, self.gain
+        pressed = (
+            f"{self.most_n:.3g} N commanded may press {self._limit_n:.3g} N, the contract's limit"
+        )
+        if gain is not None and factor <= 1.01 * gain.high:
+            return (
+                f"{pressed}: this contact's force is felt to within a factor of "
+                f"{gain.high / gain.value:.2g}; a higher limit lets more through"
+            )
         return (
-            f"{self.most_n:.3g} N commanded may press {self._limit_n:.3g} N, the contract's limit, "
-            f"as far as is known: {self._limit_n / self.most_n:.2g} times as much; a smaller "
+            f"{pressed}, as far as is known: {factor:.2g} times as much; a smaller "
             "gripper.max_force_gain in the rig's file lets more through, if the gripper keeps to it"
         )
 

@@ -40,6 +40,18 @@ def test_words_win_over_the_task_and_are_named_as_the_origin():
     assert said.origins["depth_mm"] == "default"  # the task's depth is that of the task's force
 
 
+@pytest.mark.parametrize("most_n", [1.0, 3.0, 5.3, 8.0])
+def test_a_firm_grip_under_a_named_most_starts_where_a_peg_is_felt_to_be_below_it(most_n: float):
+    plain, firm = (
+        read_contract(f"{manner}at most {most_n} N", peg_terms(), {}).terms
+        for manner in ("", "firmly, ")
+    )
+    assert firm.limit_n == plain.limit_n
+    assert firm.force_n.high == plain.force_n.high
+    assert firm.force_n.low >= plain.force_n.low
+    assert firm.force_n.low <= max(plain.force_n.low, 0.55 * most_n)
+
+
 def test_configuration_wins_over_manner_and_says_so():
     held = read("Hold it gently.", force_n=Band(low=4.0, high=6.0))
     assert held.terms.force_n == Band(low=4.0, high=6.0)

@@ -118,6 +118,15 @@ def test_a_lowered_command_says_from_what_to_what_and_why():
     assert guard.state().clamped == ""  # only of the last command
 
 
+def test_why_no_more_is_sent_names_what_holds_it_back():
+    guard, _ = guarded(limit_n=4.0)
+    assert "gripper.max_force_gain" in guard.why_no_more
+    guard.grip(1.0)
+    guard.feel(Interval(value=1.9, low=1.0, high=3.2))
+    assert guard.most_n == pytest.approx(4.0 / 3.2)
+    assert "felt to within a factor of 1.7" in guard.why_no_more
+
+
 @pytest.mark.parametrize("force_n", [0.0, -1.0, math.nan, math.inf, -math.inf])
 def test_a_command_that_is_no_force_is_refused_and_nothing_is_sent(force_n):
     guard, gripper = guarded()
