@@ -36,7 +36,8 @@ class LlmFolder:
 class AskFlags:
     """Answer questions about a cloud (.ply .pcd .xyz .npy .npz) or height map (.npy .npz).
 
-    In mm, positive into the gel, with the untouched gel at 0.
+    In mm, positive into the gel, with the untouched gel at 0. Of an episode (.mcap) they are about
+    the contact of one step, under that step's contract.
 
     Without a question, a dialogue: follow-ups such as "Why?" are put with the exchange before, an
     empty line or ctrl-D ends it. Without a terminal, each line of the input is answered by a line,
@@ -44,7 +45,8 @@ class AskFlags:
     (with --json as "error"), and the exit code is 2.
 
     Attributes:
-        file: Cloud, height map, or a frame of the sensor's camera (.png .jpg .bmp).
+        file: Cloud, height map, a frame of the sensor's camera (.png .jpg .bmp), or an episode.
+        step: Number of the step of an episode; by default the last one.
         question: Question in plain English, for example "How deep is it pressed?".
         sensor: Name of the sensor that the file is from.
         background: For a frame: a frame of the same sensor unit with an untouched gel.
@@ -61,6 +63,7 @@ class AskFlags:
 
     file: tyro.conf.Positional[Path]
     question: tyro.conf.Positional[str | None] = None
+    step: int | None = None
     sensor: str = "gelsight_mini"
     background: Path | None = None
     calibration: Path | None = None
@@ -85,22 +88,25 @@ class AskFlags:
 def main(argv: Sequence[str]) -> int:
     """Answer one question, or those of a dialogue."""
     flags = parse(AskFlags, argv, prog="tacgrasp ask")
-    contract = _contract(flags)
-    from cltp.sensing.touch_files import path_in_errors, read_cloud
-    from cltp.tactile.sensors import sensor_named
+    named = _contract(flags)
+    from cltp.sensing.touch_files import path_in_errors
     from tacgrasp.console import make_console, working
+    from tacgrasp.playback.contact_file import read_contact
     from tacgrasp.playback.conversation import Conversation
     from tacgrasp.policy_factory import load_llm
 
-    sensor = sensor_named(flags.sensor)
-    cloud = read_cloud(
-        flags.file, sensor, background=flags.background, calibration=flags.calibration
+    cloud, recorded, _ = read_contact(
+        flags.file,
+        flags.sensor,
+        background=flags.background,
+        calibration=flags.calibration,
+        step=flags.step,
     )
     with working("loading the language model"):
         policy = load_llm(flags.weights or flags.llm.dir)
     try:
         with path_in_errors(flags.file):
-            talk = Conversation(cloud, policy.talker, contract=contract, mass_g=flags.mass)
+            talk = Conversation(cloud, policy.talker, contract=named or recorded, mass_g=flags.mass)
     except ValueError as error:
         raise UsageError(f"--mass: {error}") from None
     console = make_console()

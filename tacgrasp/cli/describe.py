@@ -20,19 +20,23 @@ class DescribeFlags:
 
     In mm, positive into the gel, with the untouched gel at 0.
 
-    A frame of the sensor's camera (.png .jpg .bmp) needs its background too.
+    A frame of the sensor's camera (.png .jpg .bmp) needs its background too. Of an episode (.mcap)
+    it is the contact of one step, under that step's contract.
 
     Attributes:
-        file: Cloud, height map or frame.
+        file: Cloud, height map, frame or episode.
+        step: Number of the step of an episode; by default the last one.
         sensor: Name of the sensor that the file is from.
         background: For a frame: a frame of the same sensor unit with an untouched gel.
         calibration: For a frame: calibration of its sensor unit; by default the shipped one.
-        instruction: Instruction that the model advises on; by default the strawberry's.
+        instruction: Instruction that the model advises on; by default the episode's, else the
+            strawberry's.
         weights: Folder of weights; by default TACGRASP_WEIGHTS, else the shipped weights.
         json: Print one JSON object instead: state, numbers with their intervals, contact, flags.
     """
 
     file: tyro.conf.Positional[Path]
+    step: int | None = None
     sensor: str = "gelsight_mini"
     background: Path | None = None
     calibration: Path | None = None
@@ -44,13 +48,13 @@ class DescribeFlags:
 def main(argv: Sequence[str]) -> int:
     """Describe one file."""
     flags = parse(DescribeFlags, argv, prog="tacgrasp describe")
-    from cltp.sensing.touch_files import path_in_errors, read_cloud
+    from cltp.sensing.touch_files import path_in_errors
     from cltp.tactile.contact.raised_pad import is_raised
     from cltp.tactile.contact.single_cloud import is_touched
-    from cltp.tactile.sensors import sensor_named
     from tacgrasp.config.layers import load
     from tacgrasp.config.terms import contract_of
     from tacgrasp.console import make_console, working
+    from tacgrasp.playback.contact_file import read_contact
     from tacgrasp.playback.describe import (
         describe,
         describe_by_model,
@@ -60,11 +64,12 @@ def main(argv: Sequence[str]) -> int:
     from tacgrasp.policy_factory import default_weights, load_llm, shipped_weights
 
     console = make_console()
-    cloud = read_cloud(
+    cloud, contract, about = read_contact(
         flags.file,
-        sensor_named(flags.sensor),
+        flags.sensor,
         background=flags.background,
         calibration=flags.calibration,
+        step=flags.step,
     )
     with path_in_errors(flags.file):
         touched = is_touched(cloud)
@@ -72,6 +77,8 @@ def main(argv: Sequence[str]) -> int:
         reader = make_reader(flags.weights or default_weights())
         sys.stdout.write(json.dumps(describe_in_numbers(cloud, reader), indent=2) + "\n")
         return 0
+    if about:
+        console.print(f"step      {about}")
     for line in describe(cloud):
         console.print(line)
     if is_raised(cloud) or not touched:
@@ -83,11 +90,12 @@ def main(argv: Sequence[str]) -> int:
             "name their folder with --weights"
         )
         return 0
-    config, sources = load("strawberry")
-    if flags.instruction is not None:
-        config = config.model_copy(update={"instruction": flags.instruction})
-        sources = {**sources, "instruction": "the command line"}
-    contract = contract_of(config, sources)
+    if contract is None or flags.instruction is not None:
+        config, sources = load("strawberry")
+        if flags.instruction is not None:
+            config = config.model_copy(update={"instruction": flags.instruction})
+            sources = {**sources, "instruction": "the command line"}
+        contract = contract_of(config, sources)
     if contract.refused:
         raise UsageError(f"--instruction is refused: {contract.refused}")
     with working("loading the language model"):

@@ -25,7 +25,7 @@ Not here: reading and writing (``tacgrasp.episodes.reader``, ``.writer``).
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from enum import StrEnum
 from typing import Any
 
@@ -189,6 +189,10 @@ class StepFields:
     def shared(self) -> dict[str, Any]:
         """The fields above by name, whatever else this dataclass holds."""
         return {field.name: getattr(self, field.name) for field in fields(StepFields)}
+
+    def under(self, contract: Contract) -> Contract:
+        """The episode's contract with the target of this step as its band."""
+        return contract if self.need is None else replace(contract, force_n=self.need.force_n)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

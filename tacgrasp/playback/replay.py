@@ -119,7 +119,7 @@ def differences(episode: Episode, policy: Policy, contract: Contract) -> Iterato
         contract = step.contract or contract
         if not asked_policy(step):
             continue
-        target = contract if step.need is None else replace(contract, force_n=step.need.force_n)
+        target = step.under(contract)
         try:
             elapsed_s = step.stamp.monotonic_s - times_from_s(episode)
             decision = decide(policy, _readings(step).for_policy(elapsed_s), target)

@@ -1,0 +1,73 @@
+"""A contact out of an episode: that of the step, under the contract of then."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from primitives.contract import Band
+from tacgrasp.__main__ import main
+from tacgrasp.base.errors import UsageError
+from tacgrasp.episodes import EpisodeWriter, StepPhase, StepRecord
+from tacgrasp.episodes.record import Need
+from tacgrasp.playback.contact_file import read_contact
+from tests.fakes.contracts import contract
+from tests.fakes.episode_samples import header, step_record
+
+FIRST, SOFTER = contract(1.0, 2.0, 2.5), contract(0.5, 1.0, 1.25)
+NEED = Need(force_n=Band(low=0.6, high=0.7), felt="30 mm wide")
+
+
+def recorded(folder: Path, *steps: StepRecord) -> Path:
+    path = folder / "episode.mcap"
+    with EpisodeWriter(path, replace(header(), contract=FIRST)) as writer:
+        for step in steps:
+            writer.write_step(step)
+    return path
+
+
+@pytest.fixture
+def episode(tmp_path: Path) -> Path:
+    return recorded(
+        tmp_path,
+        step_record(0),
+        replace(step_record(1), contract=SOFTER),
+        replace(step_record(2), need=NEED),
+        step_record(3, phase=StepPhase.VERIFY_BEFORE, action=None),
+    )
+
+
+def test_a_step_is_read_under_the_contract_and_the_target_of_then(episode: Path) -> None:
+    contacts = [read_contact(episode, "gelsight_mini", step=number) for number in range(4)]
+    for number, contact in enumerate(contacts):
+        assert np.array_equal(contact.cloud.points_mm, step_record(number).cloud.points_mm)
+    bands = [contact.contract.terms.force_n for contact in contacts if contact.contract]
+    assert bands == [FIRST.force_n, SOFTER.force_n, NEED.force_n, SOFTER.force_n]
+    assert contacts[2].contract is not None
+    assert contacts[2].contract.limit_n == SOFTER.limit_n
+    assert contacts[0].about == "0 of 0 to 3"
+    last = read_contact(episode, "digit")  # the episode says itself what sensor it is of
+    assert last.about == "3 of 0 to 3 before the lift"
+    assert last.cloud.sensor.name == "gelsight_mini"
+
+
+def test_a_step_that_is_not_there_is_refused(episode: Path, tmp_path: Path) -> None:
+    with pytest.raises(UsageError, match="has no step 4; its steps are 0 to 3"):
+        read_contact(episode, "gelsight_mini", step=4)
+    with pytest.raises(UsageError, match=r"--step is for an episode \(\.mcap\)"):
+        read_contact(tmp_path / "cloud.ply", "gelsight_mini", step=0)
+    (tmp_path / "empty").mkdir()
+    with pytest.raises(UsageError, match="has no steps"):
+        read_contact(recorded(tmp_path / "empty"), "gelsight_mini")
+
+
+def test_a_step_of_an_episode_is_described(
+    episode: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["describe", str(episode), "--step", "1"]) == 0
+    printed = capsys.readouterr().out
+    assert printed.startswith("step      1 of 0 to 3\nsensor    gelsight_mini")
+    assert "Goal 0.50 - 1.00 N" in printed
