@@ -25,10 +25,10 @@ with about 5 %, and the felt force varies by some percent from frame to frame.""
 BELOW_MOST = 0.9
 """Top of the band under a named most, as a fraction of it: room for the error of a felt force."""
 
-FIRMEST = 0.55
-"""Largest low end of a firm band under a named most, as a fraction of it. Our choice: a peg's force
-is felt to within a factor of 1.65, and what it may be at most stays below the limit, so that 0.6 of
-the limit is reached there."""
+FIRMEST = 0.58
+"""Largest low end of a firm band under a named most, as a fraction of the hard limit. Our choice: a
+peg's force is felt to within a factor of 1.65, and what it may be at most stays below the limit, so
+that 0.6 of the limit is reached there."""
 
 ROUNDING = 0.99
 """Hard limit over a named most: '200 g' is 1.96 N to one reader and 1.961 N to another."""
@@ -110,12 +110,13 @@ def named_terms(forces: Sequence[Force], manner: Manner, task: ForceTerms) -> Fo
         return task  # it asks for nothing beyond the task's own
     elif most < math.inf:
         band = _under(BELOW_MOST * most, task.force_n)
-        band = band if task.needs else _lean(band, manner, FIRMEST * most)
+        band = band if task.needs else _lean(band, manner, FIRMEST * ROUNDING * most)
     else:
-        low_n = ABOVE_LEAST * least
-        high_n = task.force_n.high
+        low_n, high_n = ABOVE_LEAST * least, task.force_n.high
         if task.needs:  # the top of its band is for objects that are larger than most
             high_n = min(high_n, SPAN * low_n)
+        else:  # a least asks for no less than the task does
+            low_n = max(low_n, task.force_n.low)
         band = Band(low=low_n, high=high_n if high_n > 1.4 * low_n else low_n * math.sqrt(SPAN))
     is_told = all(f.is_told for f in forces if f.kind != "value")
     is_range = least > 0 and most < math.inf and not is_told
