@@ -310,6 +310,12 @@ def test_every_limit_of_force_in_a_rigs_file_is_a_hard_one() -> None:
     }
 
 
+def test_a_task_names_the_sensor_of_a_simulated_rig_alone() -> None:
+    assert load("strawberry")[0].sensor == "gelsight_mini"
+    assert load("fruit")[0].sensor == "gelsight_mini_markers"
+    assert load("fruit", "emulated")[0].sensor == "gelsight_mini"
+
+
 def test_an_emulated_array_has_the_sensor_of_the_run_unless_its_file_names_one(
     tmp_path: Path,
 ) -> None:
