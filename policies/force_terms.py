@@ -248,6 +248,7 @@ def scaled_terms(factor: float, task: ForceTerms) -> ForceTerms:
 
 
 def _scaled_limit_n(factor: float, scaled: Band, task: ForceTerms) -> float:
+    """Hard limit of a scaled band [N]; a softer one has as much room above it as the task's."""
     if factor < 1:
-        return default_limit_n(scaled)
+        return task.limit_n * scaled.high / task.force_n.high
     return max(FIRMER_LIMIT * scaled.high, task.limit_n)
