@@ -113,9 +113,7 @@ def named_terms(forces: Sequence[Force], manner: Manner, task: ForceTerms) -> Fo
         band = band if task.needs else _lean(band, manner, FIRMEST * ROUNDING * most)
     else:
         low_n, high_n = ABOVE_LEAST * least, task.force_n.high
-        if task.needs:  # the top of its band is for objects that are larger than most
-            high_n = min(high_n, SPAN * low_n)
-        else:  # a least asks for no less than the task does
+        if not task.needs:  # a least asks for no less than the task does
             low_n = max(low_n, task.force_n.low)
         band = Band(low=low_n, high=high_n if high_n > 1.4 * low_n else low_n * math.sqrt(SPAN))
     is_told = all(f.is_told for f in forces if f.kind != "value")

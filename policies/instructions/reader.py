@@ -168,7 +168,7 @@ def _meant(clean: str) -> tuple[str, Quantities, str]:
         wished_n = max((force.value_n for force in rest.forces), default=0.0)
         if lower := [each for each in stated if each.kind == "most" and each.value_n < wished_n]:
             return clean, numbers, f"{lower[0].words!r} is below {wished_n:.3g} N; say which counts"
-        return statements.rest, replace(rest, stated=tuple(stated)), ""
+        return statements.rest, replace(rest, stated=(*rest.stated, *stated)), ""
     return clean, numbers, f"{statements.words!r} asks for no force; say 'use ...' or 'at most ...'"
 
 

@@ -56,7 +56,7 @@ BEFORE_BOUND = rf"(?:\b{_BOUND}{_ROUGHLY}|[<>≤≥])\s*[:=]?\s*"
 BEFORE_VALUE = rf"\b{_VALUE}{_ROUGHLY}\s*[:=]?\s*"
 """What stands before a number that is a force."""
 _BEFORE = rf"(?:{BEFORE_BOUND}|{BEFORE_VALUE})"
-_AFTER = r"(?=\s*(?:$|[.,;:!?)](?![\d.])|(?:and|but|or|yet|please|then|(?:will|would)(?= (?:bruis|crush|hurt|damag|slip|break|squash))|is|bruis\w*|crush\w*|at (?:the )?(?:most|least)|max(?:imum)?|min(?:imum)?|for (?:me|us|now|this|that|today|the (?:berry|strawberry|fruit))|while|whilst|because|since|until|till|today|tonight|this time|thanks?|thank you|cheers|mate|love|dear|pal|when i|as i|if you)\b))"
+_AFTER = r"(?=\s*(?:$|[.,;:!?)](?![\d.])|[–—-] (?!\d)|(?:and|but|or|yet|please|then|(?:will|would)(?= (?:bruis|crush|hurt|damag|slip|break|squash))|is|bruis\w*|crush\w*|at (?:the )?(?:most|least)|max(?:imum)?|min(?:imum)?|for (?:me|us|now|this|that|today|the (?:berry|strawberry|fruit))|while|whilst|because|since|until|till|today|tonight|this time|thanks?|thank you|cheers|mate|love|dear|pal|when i|as i|if you)\b))"
 _HALVES = (
     re.compile(rf"(?<!in )(?:\ban? |\b1 )?\bhalf(?= ?(?:-|–|to|and|or|up to) {_ONE})"),
     re.compile(rf"(?<=(?:than|nder|over|elow|bove|most|east) )(?:an? )?half{_AFTER}"),
@@ -66,13 +66,20 @@ _QUANTITY = re.compile(
     rf"{NUMBER}\s*-?\s*(?:(?P<force>(?:{UNIT})\b)|mm\b|cm\b|millimet\w+|[µμu]m\b|micro\w+|%|percent\b|per cent\b)"
 )
 _LINK = r"\s*(?:-|–|\bto\b|\bup to\b|\bthrough\b)\s*"
+_BOUND_BEHIND = (
+    r"(?:(?:at|on) (?:(?:an?|the) )?(?:very |absolute )?(?:most|least|max(?:imum)?|min(?:imum)?|outside|utmost|top|bottom|(?:high|low|upp)(?:er)? end)|"
+    r"tops?|max(?:imum)?|min(?:imum)?|or (?:less|more)|"
+    r"(?:as (?:an?|the|its|my|our|your) )?(?:(?:upper|lower|hard|absolute|strict|safe|safety|force|grip) )*(?:bound|limit|end|cap|ceiling|lid|floor|stop))\b"
+)
+"""What bounds a force and stands behind its number."""
 _BARES = (
     re.compile(rf"\bbetween (?P<a>{NUMBER})(?: and |{_LINK})(?P<b>{_BARE}){_AFTER}"),
     re.compile(rf"(?:{_BEFORE}|\bfrom |^)(?P<a>{NUMBER}){_LINK}(?P<b>{_BARE}){_AFTER}"),
     re.compile(rf"{_BEFORE}(?P<a>{NUMBER}){_AFTER}"),
+    re.compile(rf"{BEFORE_BOUND}(?P<a>{NUMBER})(?= with\b)"),
     re.compile(rf"{_HELD_AT}(?P<a>{NUMBER}){_AFTER}"),
     re.compile(
-        rf"(?P<a>{NUMBER})(?= (?:at (?:the )?(?:very )?(?:most|least)|max(?:imum)?|min(?:imum)?|or (?:less|more)|(?:is |would be )?(?:too|not enough)|(?:will|would) (?:bruis|crush|hurt|damag|squash|slip|break)\w*)\b)"
+        rf"(?P<a>{NUMBER})(?= (?:{_BOUND_BEHIND}|(?:is |would be )?(?:too|not enough)\b|(?:will|would) (?:bruis|crush|hurt|damag|squash|slip|break)\w*\b))"
     ),
     re.compile(
         rf"^(?P<a>{NUMBER})(?=\s*(?:$|,|\(?at (?:the )?(?:most|least)\b|\(?max\b|\(?min\b))"
@@ -114,12 +121,19 @@ _THAN_THAT = re.compile(
 """'It was 1 N; use 0.2 less than that'."""
 
 _LEFT_OVER = (
-    re.compile(rf"(?<!\bnot ){ALONE}(?P<a>\d*\.\d+){_AFTER}"),
+    re.compile(
+        rf"(?<!\bnot ){ALONE}(?P<a>\d*\.\d+)(?:{_AFTER}|(?= (?:at|on|as|in|upper|lower|hard)\b))"
+    ),
     re.compile(
         rf"[,;:] (?:(?:the|its|my|your|our) )?(?!{words.any_of('numbered')})\w+:? (?P<a>\d+)(?=\s*(?:$|[.,;:!?)](?![\d.])))"
     ),
 )
 """'Hold it at 1 N, redline 1.1': a fraction anywhere, a whole number after one unknown word."""
+_NUMBERED = re.compile(rf"not|through|{words.any_of('numbered')}")
+_BARE_NUMBER = re.compile(
+    rf"(?:(?P<before>\w+)\s+)?(?<![\w.])(?P<a>\d+(?:\.\d+)?)(?:{_AFTER}|(?= (?:at|on|as|in|if|when|with|peak|absolute|upper|lower|hard|for (?:the|a))\b))"
+)
+"""'At least 0.5 N, 1 in the worst case': beside a least, which bounds nothing from above."""
 _NO_FORCE = re.compile(
     r"\b(?:(?:slip|slid)\w*[^,;.!?]*|(?:calibration|measuring|data) )\.?\d[\d.]*"
 )
@@ -130,6 +144,14 @@ def left_over(text: str) -> str:
     text = _NO_FORCE.sub(" ", text)
     for pattern in _LEFT_OVER:
         if match := pattern.search(text):
+            return match["a"]
+    return ""
+
+
+def bare_number(text: str) -> str:
+    """A number that a text leaves without a unit, where it might be the most; '' for none."""
+    for match in _BARE_NUMBER.finditer(_NO_FORCE.sub(" ", text)):
+        if not _NUMBERED.fullmatch(match["before"] or ""):
             return match["a"]
     return ""
 

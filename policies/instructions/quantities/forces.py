@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from typing import Literal
+from typing import Literal, NamedTuple
 
 from policies.instructions.english import words as english
 from policies.instructions.english.denials import FORBIDDEN_AFTER, NO_CASE
@@ -85,8 +85,24 @@ _PAST = re.compile(
 )
 
 
-def read_forces(text: str) -> tuple[list[Force], str, str]:
-    """Forces of a text, words of the one that it only denies, the text with ``MARK`` for each."""
+class ReadForces(NamedTuple):
+    """The forces of a text.
+
+    Attributes:
+        kept: Those that it asks for or bounds the grip by.
+        dropped: Those that it denies, takes back or tells of the past.
+        denied: Words of the one that it only denies; '' for none.
+        rest: The text with ``MARK`` for each force.
+    """
+
+    kept: list[Force]
+    dropped: list[Force]
+    denied: str
+    rest: str
+
+
+def read_forces(text: str) -> ReadForces:
+    """Read the forces of a text."""
     denied = ""
     found: list[tuple[Force, bool]] = []  # a force, and whether it is of the past or denied
     denials: set[str] = set()  # words of the forces whose clause denies them
@@ -187,12 +203,14 @@ def read_forces(text: str) -> tuple[list[Force], str, str]:
     kept_forces = [force for force, kept in found if kept]
     denied_n = {force.value_n for force, kept in found if not kept and force.words == denied}
     if denied and denied_n.issuperset(force.value_n for force in kept_forces):
-        return [], denied, rest
+        return ReadForces([], [], denied, rest)
     if not kept_forces and (unwanted := [force for force, _ in found if force.words in denials]):
-        return [], unwanted[0].words, rest
+        return ReadForces([], [], unwanted[0].words, rest)
+    dropped = [force for force, kept in found if not kept] if kept_forces else []
     kept_forces = kept_forces or [force for force, _ in found]
     bounds = {force.value_n for force in kept_forces if force.kind != "value"}
-    return [f for f in kept_forces if f.kind != "value" or f.value_n not in bounds], "", rest
+    kept_forces = [f for f in kept_forces if f.kind != "value" or f.value_n not in bounds]
+    return ReadForces(kept_forces, dropped, "", rest)
 
 
 def _kind_corrected(found: list[Force]) -> Kind:

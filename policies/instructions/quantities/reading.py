@@ -10,7 +10,7 @@ import re
 from dataclasses import dataclass, field
 
 from policies.instructions.quantities.bounds import with_plain_bounds
-from policies.instructions.quantities.elisions import left_over, written_out
+from policies.instructions.quantities.elisions import bare_number, left_over, written_out
 from policies.instructions.quantities.factors import denied_factor, read_delta, read_factor
 from policies.instructions.quantities.force import WORKED_OUT, Force
 from policies.instructions.quantities.force_units import NUMBER, ONE_FORCE, UNIT, number
@@ -137,11 +137,13 @@ def read_quantities(text: str) -> Quantities:
     text = without_slip_bound(text)
     area = AREA.search(text)
     delta_n, text = read_delta(text)
-    forces, denied, text = read_forces(text)
+    forces, dropped, denied, text = read_forces(text)
     unread = left_open or unread or undecided_force(plainly, is_bounded=bool(forces))
     before_factor = text
     factor, factor_words, text = read_factor(text)
     unitless = unitless or (left_over(text) if forces else "")
+    if forces and all(force.kind == "least" for force in forces):
+        unitless = unitless or bare_number(text)
     if factor is not None and not forces:
         denied = denied or denied_factor(before_factor, factor, factor_words)
     if unsure and any(force.kind == "value" for force in forces):
@@ -150,6 +152,7 @@ def read_quantities(text: str) -> Quantities:
     percentage = _PERCENT_OF_NOTHING.search(text) if is_alone else None
     return Quantities(
         forces=tuple(forces),
+        stated=tuple(dropped),
         delta_n=delta_n,
         factor=factor,
         factor_words=factor_words,

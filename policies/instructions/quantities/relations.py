@@ -20,7 +20,7 @@ _BELOW = re.compile(
 _MOST = re.compile(
     r"(?:\b(?:less|lower|smaller) than or equal to|\b(?:at|under|below) or (?:under|below|at)|\b(?:ends|tops out|finish\w*|finishes)(?: \w+){0,3} (?:at|before)|\bstop\w*(?: \w+){0,3} before|(?<!not )(?<!never )\b(?:stop|quit|halt|cease|leave off|cut (?:out|off)|finish|pull up|abort|bail(?: out)?|trip|fault|e-?stop|shut (?:down|off)|give up|let go|back off|alarm)(?:s|p?p?ing|ed)?(?: \w+ing)?(?: (?:it|in|down|up|on it|on this|dead|short|the (?:berry|strawberry|fruit|fingers|jaws|gripper)))? at|"
     r"\bat (?:the )?(?:very |absolute )?most|\batmost|\b(?:allowed|allowable|permitted|permissible|admissible|tolerable|tolerated)(?: (?:only|just|force|forces|grip|load|value|level|is|are|of))*:?|\b(?:allows?|permits?|tolerates?)(?: us| me| you| only| just)*|\bthe (?:safe|right|low|lower|soft|gentle|near) side of|\bhard stop(?: at| of| is)?|\bup to|\b(?:as (?:hard|much|high|firm|far) as|no further than)|"
-    r"\bmax(?:imum|imal(?:ly)?|ed)?\.?(?: \w+){0,3}?(?: of| is| at| to|:| =|=)?|"
+    r"\bmax(?:\.|imum|imal(?:ly)?|ed)?(?: \w+){0,3}?(?: of| is| at| to|:| =|=)?|"
     r"\blimit(?:s|ed|ing)?(?: (?!not\b|never\b)\w+){0,3}?(?: to| of| at| is|:| =|=)?|"
     r"(?<!bottle )(?<!screw )(?<!jar )(?<!pen )(?<!tube )(?<!vial )\bcap(?:s|ped|ping)?(?: \w+){0,3}?(?: at| to| of| is|:| =|=)?|\bceiling(?: of| is| at|:| =|=)?|"
     r"\bcritical (?:force|load|value|level|point)(?: of| is| at| to|:| =|=)?|"
@@ -35,7 +35,7 @@ _MOST = re.compile(
 )
 _LEAST = re.compile(
     r"(?:\b(?:more|greater|higher|larger) than or equal to|\b(?:at|over|above) or (?:over|above|at)|"
-    r"\bat (?:the )?(?:very |absolute )?least|\batleast|\bmin(?:imum|imal(?:ly)?)?\.?(?: (?!not\b|never\b)\w+){0,3}?(?: of| is| at|:| =|=)?|"
+    r"\bat (?:the )?(?:very |absolute )?least|\batleast|\bmin(?:\.|imum|imal(?:ly)?)?(?: (?!not\b|never\b)\w+){0,3}?(?: of| is| at|:| =|=)?|"
     r"\b(?:lower|bottom) (?:\w+ )?(?:limit|bound|end)(?: \w+){0,2}?(?: of| is| at|:| =|=)?|\bfloor(?: \w+){0,3}?(?: of| is| at|:| =|=)?|"
     r">=|≥|=>|\bno less than|\bno (?:weaker|less|softer|lower|gentler|looser|smaller)(?: an?)? (?:grip|squeeze|hold|force|clamp|pressure|grasp)(?: strength)? than|\bat (?:the )?(?:very )?least (?:with|at|use|apply)|\b(?:it|berry|fruit|this|that|one|strawberry|thing) (?:really |always )?(?:needs|requires|takes)|\bf[_ ]?min\s*[:=]?|\bstarting (?:at|from)|\bbottom out at|"
     r"\b(?:lower|low|bottom)[ -](?:alarm|trip|warning|threshold|cut-?off|guard)s?(?: (?:threshold|level|limit|point|value))?(?: of| is| at|:| =|=)?)"
