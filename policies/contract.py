@@ -27,6 +27,7 @@ from policies.force_terms import (
     toleranced_band,
     words_of,
 )
+from policies.instructions.other_forces import is_another
 from policies.instructions.quantities import Force, Quantities
 from policies.instructions.reader import Request, read_request
 from primitives.contract import (
@@ -162,6 +163,12 @@ def _take_words(draft: _Draft, request: Request, task: TaskTerms, *, is_own: boo
     if numbers.denied:
         raise RefusedError(
             f"it says what not to hold with ({numbers.denied}), and names no other force"
+        )
+    if request.need and is_another(request.need.object, task.object):
+        held = task.object.replace("_", " ")
+        raise RefusedError(
+            f"{request.need.words!r} says what something else takes than the {held}; say 'use ...' "
+            "for this grip"
         )
     is_named = any(force.kind == "value" for force in numbers.forces)
     if is_named and numbers.factor is not None:

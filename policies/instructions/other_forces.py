@@ -7,6 +7,7 @@ usual. Not here: forces of the past and what they led to (``outcomes``).
 from __future__ import annotations
 
 import re
+from typing import NamedTuple
 
 from policies.instructions.english import words
 from policies.instructions.quantities.force import MARK
@@ -110,12 +111,41 @@ def without_other_forces(text: str) -> str:
         named = (each[0] for each in re.finditer(OBJECT, rest))
         others = {_kind(name) for name in named if not _ANY.fullmatch(name)}
         is_named = not _ANY.fullmatch(match["object"])
-        is_another = is_named and others and _kind(match["object"]) not in others
+        is_other = is_named and others and _kind(match["object"]) not in others
         if re.search(ONE_FORCE, rest) and not (_HELD.search(rest) or _GIVEN.search(rest)):
             continue  # 'the tomato gets 2 N, the berry 1 N' does not say which one is held
-        if is_another or _THAT_TOOK.match(match[0]):
+        if is_other or _THAT_TOOK.match(match[0]):
             text = f"{text[: match.start('force')]}{MARK}{text[match.end('force') :]}"
     return text
+
+
+class Need(NamedTuple):
+    """What a text says that an object needs.
+
+    Attributes:
+        object: The object ('egg'); its kind, in the singular.
+        words: The words that say so.
+    """
+
+    object: str
+    words: str
+
+
+def need_of(text: str) -> Need | None:
+    """The first need of a named object that a text says; None where it says none.
+
+    Args:
+        text: A text after ``without_other_forces``.
+    """
+    for match in _OF_OBJECT.finditer(text):
+        if not _ANY.fullmatch(match["object"]):
+            return Need(_kind(match["object"]), match[0])
+    return None
+
+
+def is_another(name: str, task_object: str) -> bool:
+    """Whether the kind of an object is not that of a task's object ('cherry_tomato')."""
+    return "fruit" not in (name, task_object) and name != _kind(task_object.split("_")[-1])
 
 
 def _without_bounds_of_others(text: str) -> str:
@@ -139,4 +169,4 @@ def _without_bounds_of_others(text: str) -> str:
 
 def _kind(name: str) -> str:
     """A fruit by one name: 'straw berries' and 'berry' are strawberries here."""
-    return "berry" if "berr" in name else name.rstrip("s")
+    return "berry" if "berr" in name else re.sub(r"(?<=o)es$|s$", "", name)

@@ -9,7 +9,7 @@ from policies.instructions.english import words
 from policies.instructions.english.spelling import spelled
 from policies.instructions.english.text import plain, sentences
 from policies.instructions.manner import Manner, has_manner, read_manner
-from policies.instructions.other_forces import without_other_forces
+from policies.instructions.other_forces import Need, need_of, without_other_forces
 from policies.instructions.own_work import without_own_work
 from policies.instructions.quantities import Quantities, read_quantities
 from policies.instructions.quantities.numerals import in_digits
@@ -27,6 +27,7 @@ class Request:
         numbers: Its quantities.
         manner: Its manner.
         verb, thing: What is asked for, in words ('hold', 'berry').
+        need: What it says that an object needs, where that may be a wish; None where it says none.
         refused: Reason not to carry it out; '' without one.
     """
 
@@ -35,6 +36,7 @@ class Request:
     manner: Manner
     verb: str
     thing: str
+    need: Need | None
     refused: str
 
 
@@ -144,6 +146,7 @@ def read_request(text: str) -> Request:
         manner=read_manner(numbers.rest),
         verb=verb.group() if verb else "hold",
         thing=thing.group(1) if thing else "",
+        need=need_of(clean) if numbers.forces else None,
         refused=_refusal(text, clean, numbers) or stated,
     )
 

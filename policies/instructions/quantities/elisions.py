@@ -76,7 +76,9 @@ _BARES = (
     re.compile(rf"\bbetween (?P<a>{NUMBER})(?: and |{_LINK})(?P<b>{_BARE}){_AFTER}"),
     re.compile(rf"(?:{_BEFORE}|\bfrom |^)(?P<a>{NUMBER}){_LINK}(?P<b>{_BARE}){_AFTER}"),
     re.compile(rf"{_BEFORE}(?P<a>{NUMBER}){_AFTER}"),
-    re.compile(rf"{BEFORE_BOUND}(?P<a>{NUMBER})(?= with\b)"),
+    re.compile(
+        rf"{BEFORE_BOUND}(?P<a>{NUMBER})(?= (?:with|(?:ruin|harm|hurt|damag|kill|destroy|spoil|break|burst|split|crack)\w*)\b)"
+    ),
     re.compile(rf"{_HELD_AT}(?P<a>{NUMBER}){_AFTER}"),
     re.compile(
         rf"(?P<a>{NUMBER})(?= (?:{_BOUND_BEHIND}|(?:is |would be )?(?:too|not enough)\b|(?:will|would) (?:bruis|crush|hurt|damag|squash|slip|break)\w*\b))"

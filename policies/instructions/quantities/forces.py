@@ -161,9 +161,11 @@ def read_forces(text: str) -> ReadForces:
             said_of_last = _WAS_WRONG.search(left) if found else None
             own = left[said_of_last.end() :] if said_of_last else left
             own = _CORRECTION.split(own)[-1]
-            before = _CONDITION.sub("", re.split(r"[.;,]\s|\bbut\b", own)[-1])
+            before = _CONDITION.sub("", re.split(r"[.;,]\s|\s[-–—]\s|\bbut\b", own)[-1])
             after = re.split(
-                r"[.;,]\s?|\b(?:instead of|rather than|because|since)\b", text[stop:], maxsplit=1
+                r"[.;,]\s?|\s[-–—]\s|\b(?:instead of|rather than|because|since)\b",
+                text[stop:],
+                maxsplit=1,
             )[0]
             clause = before + after
             may_be_denied = kind == "value" or (kind == "least" and not _LESS.search(words))

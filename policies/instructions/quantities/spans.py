@@ -79,6 +79,10 @@ def _is_range(match: re.Match[str], text: str) -> bool:
     if link in ("and", ","):
         before = match["pre"] or ""
         return "[" in before or (link == "and" and bool(before))
+    is_set_off = link in "-–—" and match["link"] != link and not match["pre"]
+    first, second = match["ua"] or match["ub"], match["ub"]
+    if is_set_off and in_newtons(match["a"], first) > in_newtons(match["b"], second):
+        return False  # 'this is berry 7 - 0.8 N'
     if not _is_loose(match["ub"]):
         return True
     return bool(_FORCE_WORD.search(text[: match.start()]) or match["pre"])

@@ -1,12 +1,13 @@
-"""A number that is said beside a least force is never passed, whatever it was said for."""
+"""No limit is lost beside other numbers, whatever these were said for."""
 
 from __future__ import annotations
 
-from itertools import product
+from dataclasses import replace
+from itertools import permutations, product
 
 import pytest
 
-from policies.contract import read_contract
+from policies.contract import TaskTerms, read_contract
 from tests.fakes.contracts import terms
 
 LEASTS = ("at least 0.5 N", "0.5 newtons at the minimum", "minimum 0.5 N", "no less than 500 mN")
@@ -40,6 +41,41 @@ def test_no_limit_lies_above_a_number_beside_a_least(most: str) -> None:
         text = least + link + most.format(said)
         held = read_contract(text, task, {})
         assert held.refused or held.terms.limit_n <= most_n, (text, held.terms.limit_n)
+
+
+WISHES = ("hold it with 0.5 N", "grip it gently", "aim for 500 mN", "at least 0.4 N", "take it")
+BOUNDS = (
+    "back off before 0.8 N",
+    "0.8 N max",
+    "anything over 0.8 N ruins it",
+    "without going past 0.8 N",
+    "0.8 N tops",
+)
+ASIDES = ("the eggs need 3 N", "yesterday we used 2 N", "this is berry 7", "the tray holds 12")
+
+
+@pytest.mark.parametrize("bound", BOUNDS)
+def test_a_bound_holds_beside_a_wish_and_an_aside_in_any_order(bound: str) -> None:
+    task = terms()
+    for wish, aside, link in product(WISHES, ASIDES, (". ", "; ", " - ")):
+        for parts in permutations((wish, bound, aside)):
+            held = read_contract(link.join(parts), task, {})
+            assert held.refused or held.terms.limit_n <= 0.8, (link.join(parts), held.terms)
+
+
+@pytest.mark.parametrize(
+    ("text", "task", "is_refused"),
+    [
+        ("The eggs need 3 N; gently.", terms(), True),
+        ("The eggs need 3 N; at least 0.4 N.", terms(), True),
+        ("Berries need 0.8 N.", terms(), False),
+        ("The fruit takes 1 N.", terms(), False),
+        ("The tomatoes need 1 N.", replace(terms(), object="cherry_tomato"), False),
+        ("The strawberry needs 0.5 N.", replace(terms(), object="egg"), True),
+    ],
+)
+def test_what_another_object_needs_is_no_wish(text: str, task: TaskTerms, is_refused: bool) -> None:
+    assert ("something else takes" in read_contract(text, task, {}).refused) is is_refused
 
 
 @pytest.mark.parametrize(
