@@ -119,7 +119,7 @@ def without_other_forces(text: str) -> str:
     return text
 
 
-class Need(NamedTuple):
+class SaidNeed(NamedTuple):
     """What a text says that an object needs.
 
     Attributes:
@@ -131,7 +131,7 @@ class Need(NamedTuple):
     words: str
 
 
-def need_of(text: str) -> Need | None:
+def need_of(text: str) -> SaidNeed | None:
     """The first need of a named object that a text says; None where it says none.
 
     Args:
@@ -139,7 +139,7 @@ def need_of(text: str) -> Need | None:
     """
     for match in _OF_OBJECT.finditer(text):
         if not _ANY.fullmatch(match["object"]):
-            return Need(_kind(match["object"]), match[0])
+            return SaidNeed(_kind(match["object"]), match[0])
     return None
 
 

@@ -9,7 +9,7 @@ from policies.instructions.english import words
 from policies.instructions.english.spelling import spelled
 from policies.instructions.english.text import plain, sentences
 from policies.instructions.manner import Manner, has_manner, read_manner
-from policies.instructions.other_forces import Need, need_of, without_other_forces
+from policies.instructions.other_forces import SaidNeed, need_of, without_other_forces
 from policies.instructions.own_work import without_own_work
 from policies.instructions.quantities import Quantities, read_quantities
 from policies.instructions.quantities.numerals import in_digits
@@ -36,7 +36,7 @@ class Request:
     manner: Manner
     verb: str
     thing: str
-    need: Need | None
+    need: SaidNeed | None
     refused: str
 
 

@@ -67,7 +67,7 @@ def test_gentle_wordings_are_read_as_gentle(words):
 
 @pytest.mark.parametrize("words", FIRM_WORDS)
 def test_firm_wordings_are_read_as_firm(words):
-    assert contract_for(words).lean == 0.65
+    assert contract_for(words).lean == 0.5
 
 
 @pytest.mark.parametrize("size_mm", [22.0, 30.0, 44.0])
