@@ -67,7 +67,7 @@ _QUANTITY = re.compile(
 )
 _LINK = r"\s*(?:-|–|\bto\b|\bup to\b|\bthrough\b)\s*"
 _BOUND_BEHIND = (
-    r"(?:(?:at|on) (?:(?:an?|the) )?(?:very |absolute )?(?:most|least|max(?:imum)?|min(?:imum)?|outside|utmost|top|bottom|(?:high|low|upp)(?:er)? end)|"
+    r"(?:(?:at|on) (?:(?:an?|the) )?(?:very |absolute )?(?:most|least|max(?:imum)?|min(?:imum)?|outside|utmost|(?:high|low|higher|lower|upper) end)|"
     r"tops?|max(?:imum)?|min(?:imum)?|or (?:less|more)|"
     r"(?:as (?:an?|the|its|my|our|your) )?(?:(?:upper|lower|hard|absolute|strict|safe|safety|force|grip) )*(?:bound|limit|end|cap|ceiling|lid|floor|stop))\b"
 )
