@@ -15,6 +15,7 @@ import tyro
 
 from primitives.contract import Contract
 from tacgrasp.base.errors import UsageError
+from tacgrasp.cli.contact_flags import ContactFlags
 from tacgrasp.cli.flags import parse
 
 if TYPE_CHECKING:
@@ -33,7 +34,7 @@ class LlmFolder:
 
 
 @dataclass(frozen=True)
-class AskFlags:
+class AskFlags(ContactFlags):
     """Answer questions about a cloud (.ply .pcd .xyz .npy .npz) or height map (.npy .npz).
 
     In mm, positive into the gel, with the untouched gel at 0. Of an episode (.mcap) they are about
@@ -45,12 +46,7 @@ class AskFlags:
     (with --json as "error"), and the exit code is 2.
 
     Attributes:
-        file: Cloud, height map, a frame of the sensor's camera (.png .jpg .bmp), or an episode.
-        step: Number of the step of an episode; by default the last one.
         question: Question in plain English, for example "How deep is it pressed?".
-        sensor: Name of the sensor that the file is from.
-        background: For a frame: a frame of the same sensor unit with an untouched gel.
-        calibration: For a frame: calibration of its sensor unit; by default the shipped one.
         goal: Least and most force of a good grasp [N], for questions such as "Safe to lift?".
         limit: Force that is never exceeded [N]; by default 1.25 times the most of --goal.
         task: Task whose contract is told to the model, instead of --goal.
@@ -61,12 +57,7 @@ class AskFlags:
         json: Print a JSON object for each answer: answer, kind, value, unit, confidence, decidable.
     """
 
-    file: tyro.conf.Positional[Path]
     question: tyro.conf.Positional[str | None] = None
-    step: int | None = None
-    sensor: str = "gelsight_mini"
-    background: Path | None = None
-    calibration: Path | None = None
     goal: tuple[float, float] | None = None
     limit: float | None = None
     task: str | None = None
@@ -91,17 +82,10 @@ def main(argv: Sequence[str]) -> int:
     named = _contract(flags)
     from cltp.sensing.touch_files import path_in_errors
     from tacgrasp.console import make_console, working
-    from tacgrasp.playback.contact_file import read_contact
     from tacgrasp.playback.conversation import Conversation
     from tacgrasp.policy_factory import load_llm
 
-    cloud, recorded, _ = read_contact(
-        flags.file,
-        flags.sensor,
-        background=flags.background,
-        calibration=flags.calibration,
-        step=flags.step,
-    )
+    cloud, recorded, _ = flags.read()
     with working("loading the language model"):
         policy = load_llm(flags.weights or flags.llm.dir)
     try:

@@ -8,14 +8,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-import tyro
-
 from tacgrasp.base.errors import UsageError
+from tacgrasp.cli.contact_flags import ContactFlags
 from tacgrasp.cli.flags import parse
 
 
 @dataclass(frozen=True)
-class DescribeFlags:
+class DescribeFlags(ContactFlags):
     """Describe the contact in a cloud (.ply .pcd .xyz .npy .npz) or height map (.npy .npz).
 
     In mm, positive into the gel, with the untouched gel at 0.
@@ -24,22 +23,12 @@ class DescribeFlags:
     it is the contact of one step, under that step's contract.
 
     Attributes:
-        file: Cloud, height map, frame or episode.
-        step: Number of the step of an episode; by default the last one.
-        sensor: Name of the sensor that the file is from.
-        background: For a frame: a frame of the same sensor unit with an untouched gel.
-        calibration: For a frame: calibration of its sensor unit; by default the shipped one.
         instruction: Instruction that the model advises on; by default the episode's, else the
             strawberry's.
         weights: Folder of weights; by default TACGRASP_WEIGHTS, else the shipped weights.
         json: Print one JSON object instead: state, numbers with their intervals, contact, flags.
     """
 
-    file: tyro.conf.Positional[Path]
-    step: int | None = None
-    sensor: str = "gelsight_mini"
-    background: Path | None = None
-    calibration: Path | None = None
     instruction: str | None = None
     weights: Path | None = None
     json: bool = False
@@ -54,7 +43,6 @@ def main(argv: Sequence[str]) -> int:
     from tacgrasp.config.layers import load
     from tacgrasp.config.terms import contract_of
     from tacgrasp.console import make_console, working
-    from tacgrasp.playback.contact_file import read_contact
     from tacgrasp.playback.describe import (
         describe,
         describe_by_model,
@@ -64,13 +52,7 @@ def main(argv: Sequence[str]) -> int:
     from tacgrasp.policy_factory import default_weights, load_llm, shipped_weights
 
     console = make_console()
-    cloud, contract, about = read_contact(
-        flags.file,
-        flags.sensor,
-        background=flags.background,
-        calibration=flags.calibration,
-        step=flags.step,
-    )
+    cloud, contract, about = flags.read()
     with path_in_errors(flags.file):
         touched = is_touched(cloud)
     if flags.json:
