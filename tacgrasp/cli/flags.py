@@ -81,6 +81,8 @@ def _problem(event: tyro_errors.ParseErrorEvent, flags: object, argv: Sequence[s
             paths = leaves(flags) if isinstance(flags, SettingsBase) else names
             matches = get_close_matches(tokens[0].split("=")[0], map(flag_of, paths), n=1)
             hint = f"; did you mean {matches[0]}?" if matches else ""
+            if not matches and "task" in paths and not tokens[0].startswith("-"):
+                hint = f"; did you mean --task {tokens[0]}?"
             if flag := _flag_before(tokens[0], argv):
                 hint = f"; {flag} takes no value"
             return f"unknown arguments: {' '.join(tokens)}{hint}"

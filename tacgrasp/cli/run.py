@@ -104,8 +104,6 @@ def configure(argv: Sequence[str]) -> tuple[RunConfig, Sources, RunFlags]:
     Raises:
         UsageError: Something in file, environment or flags doesn't fit.
     """
-    if argv and not argv[0].startswith("-"):
-        raise UsageError(f"{argv[0]!r} stands without a flag; did you mean --task {argv[0]}?")
     layers = parse_some(LayerFlags, argv)
     below, sources, hard = load_with_limits(layers.task, layers.rig, os.environ)
     values = {name: getattr(below, name) for name in type(below).model_fields}
