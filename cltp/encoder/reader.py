@@ -247,7 +247,7 @@ def state_in_words(
         area=Area(words["area"]),
         shape=Shape(words["shape"]),
         texture=Texture(words["texture"]),
-        cut=frozenset(side for side, x in zip(Side, read.cut[0], strict=True) if x > 0.5),
+        cut=frozenset(side for side, x in zip(Side, read.cut[0].tolist(), strict=True) if x > 0.5),
     )
 
 
@@ -306,11 +306,11 @@ def fine_noise_mm(cloud: TactileCloud) -> float:
     """
     rows, columns = GRID.cells_on(cloud.sensor.width_mm, cloud.sensor.height_mm)
     if cloud.grid is not None and cloud.grid[0] <= rows and cloud.grid[1] <= columns:
-        heights = cloud.points_mm[:, 2].reshape(cloud.grid).astype(np.float64)
+        heights = cloud.points_mm[:, 2].reshape(cloud.grid)
     elif cloud.grid is None and len(cloud.points_mm) < LEAST_FILLED * rows * columns:
         return _spread_mm(_residuals_mm(cloud))
     else:
-        heights = height_grid(cloud, GRID).astype(np.float64)
+        heights = height_grid(cloud, GRID)
     across = heights[:, :-2] - 2 * heights[:, 1:-1] + heights[:, 2:]
     down = heights[:-2] - 2 * heights[1:-1] + heights[2:]
     both = across[:-2] - 2 * across[1:-1] + across[2:]
@@ -332,6 +332,6 @@ def _residuals_mm(cloud: TactileCloud) -> NDArray[np.float64]:
 _MOST_FITTED, _FITTED_POINTS = 512, 14
 
 
-def _spread_mm(noise_mm: NDArray[np.float64]) -> float:
+def _spread_mm(noise_mm: NDArray[np.floating]) -> float:
     """Standard deviation of normal noise, by the lower quartile of its absolute values [mm]."""
     return quantile(np.abs(noise_mm), 0.25) / 0.3186

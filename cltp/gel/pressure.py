@@ -20,6 +20,7 @@ import numpy as np
 import torch
 from numpy.typing import NDArray
 from scipy import ndimage
+from torch import Tensor
 
 from cltp.gel.compliance import GelMaterial, layer_kernel
 from cltp.tactile.cells import blurred
@@ -180,7 +181,8 @@ def _forces(
     every = _compliance(rows, columns, round(pitch_mm, 2))
     loads = np.stack([np.ones(len(chosen)), heights.ravel()[chosen]], axis=1).astype(np.float32)
     # torch keeps to the threads that it was given; numpy's linear algebra takes all
-    lower = torch.linalg.cholesky_ex(torch.from_numpy(every[chosen][:, chosen])).L
+    index = torch.from_numpy(chosen)
+    lower = torch.linalg.cholesky_ex(every.index_select(0, index).index_select(1, index)).L
     halves = torch.linalg.solve_triangular(lower, torch.from_numpy(loads), upper=False)
     ones, solved = halves.numpy().T.astype(np.float64)
     sums = np.cumsum([ones * solved, ones * ones], axis=1) * pitch_mm**2
@@ -189,7 +191,7 @@ def _forces(
 
 
 @lru_cache(maxsize=8)
-def _compliance(rows: int, columns: int, pitch_mm: float) -> NDArray[np.float32]:
+def _compliance(rows: int, columns: int, pitch_mm: float) -> Tensor:
     """Compliance of each of a pad's elements under pressure on each, with the ridge [mm/MPa].
 
     32 bits suffice: its largest eigenvalue is six times its least.
@@ -198,6 +200,4 @@ def _compliance(rows: int, columns: int, pitch_mm: float) -> NDArray[np.float32]
     row, column = np.divmod(np.arange(rows * columns), columns)
     every = kernel[np.abs(row[:, None] - row), np.abs(column[:, None] - column)]
     every[np.diag_indices(len(every))] *= 1 + RIDGE
-    every = every.astype(np.float32)
-    every.setflags(write=False)
-    return every
+    return torch.from_numpy(every.astype(np.float32))

@@ -2,7 +2,9 @@
 
 Same weights and same numbers as transformers' ``Qwen2ForCausalLM`` (tested), a batch of one, a
 cache of keys and values that is allocated once, matrices that share an input joined into one. At
-a few million parameters a token costs little arithmetic: the number of calls decides.
+a few million parameters a token costs little arithmetic: the number of calls decides. A pass over
+many tokens is arithmetic; where asked to, it takes its products of matrices in bfloat16, in half
+the time on a processor with instructions for it. Norms, attention, sums and the cache keep 32 bits.
 """
 
 from __future__ import annotations
@@ -13,6 +15,14 @@ from typing import Any, NamedTuple
 import torch
 import torch.nn.functional as F
 from torch import Tensor
+
+LEAST_REDUCED = 16
+"""Tokens of a pass from which its products are faster in bfloat16. Source: measured on a Zen 4, at
+widths of 192 to 1024; of 20 tokens they take 0.9, of 64 tokens 0.6 of the time in 32 bits."""
+
+
+_MOST_ROWS = 512
+"""Choices whose rows of the output matrix are kept: 1 MB for ten tokens each."""
 
 
 class _Layer(NamedTuple):
@@ -32,9 +42,10 @@ class FastDecoder:
         lm: A ``Qwen2ForCausalLM`` or a ``cltp.llm.stored_lm.StoredLm``. Its weights are copied, so
             that it needs a new decoder after further training.
         longest: Number of positions that the cache holds.
+        reduces: Whether long passes may take their products in bfloat16, where asked to.
     """
 
-    def __init__(self, lm: Any, longest: int = 512) -> None:
+    def __init__(self, lm: Any, longest: int = 512, *, reduces: bool = False) -> None:
         config = lm.config
         self._eps = float(config.rms_norm_eps)
         self._heads = int(config.num_attention_heads)
@@ -43,9 +54,12 @@ class FastDecoder:
             getattr(config, "head_dim", None) or config.hidden_size // config.num_attention_heads
         )
         self._layers = [_joined(layer) for layer in lm.model.layers]
+        self._reduced = [_in_bfloat16(layer) for layer in self._layers] if reduces else []
+        self.is_reduced = False
         self._norm = lm.model.norm.weight.detach().clone()
         self._embedding = lm.get_input_embeddings().weight.detach().clone()
         self._head = lm.get_output_embeddings().weight.detach().clone()
+        self._rows: dict[tuple[int, ...], Tensor] = {}
         self.longest = longest
         with torch.no_grad():
             positions = torch.arange(longest, device=self._norm.device)[None]
@@ -60,19 +74,32 @@ class FastDecoder:
         ).tril()
         self._length = 0
 
+    @property
+    def reduces(self) -> bool:
+        """Whether long passes may take their products in bfloat16."""
+        return bool(self._reduced)
+
     @torch.no_grad()
     def prefill(self, embeddings: Tensor) -> Tensor:
         """Begin with inputs (T, D); return the logits of what follows, shape (V,)."""
         return self.logits(self.begin(embeddings)[0])
 
     @torch.no_grad()
-    def begin(self, embeddings: Tensor, tokens: Sequence[int] = ()) -> Tensor:
+    def begin(
+        self, embeddings: Tensor, tokens: Sequence[int] = (), *, reduced: bool = False
+    ) -> Tensor:
         """Begin with inputs (T, D) and tokens after them, in one pass.
+
+        Args:
+            embeddings: The inputs.
+            tokens: What follows them.
+            reduced: Whether this pass and those after it may take their products in bfloat16;
+                ``is_reduced`` then tells whether they do.
 
         Returns:
             States behind the inputs, and behind each of the tokens: shape (1 + tokens, D).
         """
-        self._length = 0
+        self._length, self.is_reduced = 0, reduced and self.reduces
         return self._advance(
             torch.cat([embeddings, self._embedding[list(tokens)]]), len(tokens) + 1
         )
@@ -95,8 +122,16 @@ class FastDecoder:
     @torch.no_grad()
     def scores(self, state: Tensor, tokens: Sequence[int]) -> list[float]:
         """Logits of some tokens behind a state (D,): the others cost nothing."""
-        logits: list[float] = (self._head[list(tokens)] @ state).float().tolist()
+        logits: list[float] = (self._rows_of(tuple(tokens)) @ state).float().tolist()
         return logits
+
+    def _rows_of(self, tokens: tuple[int, ...]) -> Tensor:
+        """Rows of the output matrix; the same few choices come again in every reply."""
+        if (rows := self._rows.get(tokens)) is None:
+            if len(self._rows) == _MOST_ROWS:
+                self._rows.clear()
+            rows = self._rows[tokens] = self._head[list(tokens)]
+        return rows
 
     def rewind(self, length: int) -> None:
         """Forget all but the first ``length`` positions.
@@ -115,9 +150,11 @@ class FastDecoder:
         cos, sin = self._cos[start:end], self._sin[start:end]
         width = (x.shape[1],)
         heads, kv_heads, size = self._heads, self._kv_heads, self._size
-        for number, layer in enumerate(self._layers):
+        is_reduced = self.is_reduced and count >= LEAST_REDUCED
+        product = _reduced_product if is_reduced else F.linear
+        for number, layer in enumerate(self._reduced if is_reduced else self._layers):
             normed = F.rms_norm(x, width, layer.norm1, self._eps)
-            qkv = F.linear(normed, layer.qkv, layer.qkv_bias)
+            qkv = product(normed, layer.qkv, layer.qkv_bias)
             qkv = qkv.view(count, heads + 2 * kv_heads, size).transpose(0, 1)
             rotated = qkv[: heads + kv_heads]
             rotated = rotated * cos + rotated.roll(size // 2, -1) * sin
@@ -135,12 +172,30 @@ class FastDecoder:
                 is_causal=asked > 1 and first == 0,
                 enable_gqa=heads != kv_heads,
             )
-            x = x + F.linear(mixed[0].transpose(0, 1).reshape(asked, -1), layer.out)
+            x = x + product(mixed[0].transpose(0, 1).reshape(asked, -1), layer.out)
             normed = F.rms_norm(x, width, layer.norm2, self._eps)
-            gate, up = F.linear(normed, layer.gate_up).chunk(2, -1)
-            x = x + F.linear(F.silu(gate) * up, layer.down)
+            gate, up = product(normed, layer.gate_up).chunk(2, -1)
+            x = x + product(F.silu(gate) * up, layer.down)
         self._length = end
         return F.rms_norm(x, width, self._norm, self._eps)
+
+
+def has_bfloat16() -> bool:
+    """Whether this processor has instructions for products of matrices in bfloat16."""
+    known = torch.cpu.get_capabilities()
+    return any(known.get(name, False) for name in ("avx512_bf16", "amx_bf16"))
+
+
+def _in_bfloat16(layer: _Layer) -> _Layer:
+    """A layer whose matrices are in bfloat16; norms and biases stay as they are."""
+    matrices = {name: getattr(layer, name).bfloat16() for name in ("qkv", "out", "gate_up", "down")}
+    return layer._replace(**matrices)
+
+
+def _reduced_product(x: Tensor, matrix: Tensor, bias: Tensor | None = None) -> Tensor:
+    """Product of rows (T, D) with a matrix in bfloat16, in 32 bits again."""
+    product = F.linear(x.bfloat16(), matrix).float()
+    return product if bias is None else product + bias
 
 
 def _joined(layer: Any) -> _Layer:

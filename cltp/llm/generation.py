@@ -28,7 +28,7 @@ from cltp.llm.causal_lm import CUE, Language
 from cltp.llm.constrained.decode import Constrained, ConstrainedDecoder, SlotDecision
 from cltp.llm.constrained.grammar import Grammar
 from cltp.llm.constrained.tokens import TextTokens
-from cltp.llm.fast_decode import FastDecoder, greedy
+from cltp.llm.fast_decode import FastDecoder, greedy, has_bfloat16
 from cltp.llm.tac3d_llm import Tac3dLlm
 from cltp.tactile.force_scale import ForceScale
 from cltp.tactile.point_layout import PointLayout
@@ -103,13 +103,27 @@ class Talker:
     Args:
         model: The model; its weights are copied.
         clock: Source of the time for durations [s].
+        reduces: Whether long passes take their products of matrices in bfloat16; None where a
+            model in 32 bits runs on a processor with instructions for it. Close decisions are
+            taken in 32 bits still.
     """
 
-    def __init__(self, model: Tac3dLlm, clock: Callable[[], float] = time.perf_counter) -> None:
+    def __init__(
+        self,
+        model: Tac3dLlm,
+        clock: Callable[[], float] = time.perf_counter,
+        *,
+        reduces: bool | None = None,
+    ) -> None:
         self.model = model.eval()
         self._language = model.language
         self._clock = clock
-        self._fast = FastDecoder(model.language.lm) if model.language.words else None
+        if reduces is None:
+            weight = model.language.lm.get_input_embeddings().weight
+            reduces = (weight.dtype, weight.device.type) == (torch.float32, "cpu")
+            reduces = reduces and has_bfloat16()
+        language = model.language
+        self._fast = FastDecoder(language.lm, reduces=reduces) if language.words else None
         self._constrained = ConstrainedDecoder(
             self._fast or _Run(model.language), TextTokens(model.language.encode)
         )
@@ -118,6 +132,11 @@ class Talker:
     def layout(self) -> PointLayout:
         """How the points lie that it takes."""
         return self.model.layout
+
+    @property
+    def reduces(self) -> bool:
+        """Whether long passes take their products of matrices in bfloat16."""
+        return self._fast is not None and self._fast.reduces
 
     @property
     def width(self) -> int:
@@ -197,7 +216,7 @@ class Talker:
             prompt: A person's question, or the request of a step.
             grammar: What may be said; None for anything.
             draft: With a grammar, a whole expected reply. It saves time, and changes nothing else
-                in 32 bits; in 16, logits of passes of other lengths differ by more than ``CLOSE``.
+                unless the model itself is in 16 bits (``cltp.llm.constrained.decode``).
             doubt_below: With a grammar, probabilities below which a text is said with its rival, by
                 the name of its part; ``cltp.llm.constrained.decode.DOUBT_BELOW`` for the others.
             max_tokens: Bound on the tokens of a reply without a grammar.
@@ -389,10 +408,16 @@ class _Run:
         self._language = language
         self._past: Any = None
         self.length = self.passes = 0
+        self.is_reduced = False
         self.longest = int(language.lm.config.get_text_config().max_position_embeddings)
 
-    def begin(self, embeddings: Tensor, tokens: Sequence[int] = ()) -> Tensor:
-        """Begin with inputs (T, D) and tokens; the logits after the inputs and each token."""
+    def begin(
+        self, embeddings: Tensor, tokens: Sequence[int] = (), *, reduced: bool = False
+    ) -> Tensor:
+        """Begin with inputs (T, D) and tokens; the logits after the inputs and each token.
+
+        A checkpoint runs in the precision that it is loaded in, ``reduced`` or not.
+        """
         self._past, self.length = None, 0
         inputs = torch.cat([embeddings, self._language.embed(tokens)]) if tokens else embeddings
         return self._feed(inputs, len(tokens) + 1)

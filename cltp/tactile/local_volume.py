@@ -112,8 +112,8 @@ def local_contact(cells_mm: FloatArray, sensor: SensorSpec) -> LocalContact:
         sensor: The sensor.
     """
     is_raised = _is_mostly_raised(cells_mm, sensor)
-    is_strong = _responses(cells_mm, sensor, WIDE_SCALE_MM).max() >= WIDE_RESPONSE_MM
-    local = _local_contact(cells_mm, sensor, is_wide=is_raised and is_strong)
+    response_mm = _responses(cells_mm, sensor, WIDE_SCALE_MM).max() if is_raised else 0.0
+    local = _local_contact(cells_mm, sensor, is_wide=response_mm >= WIDE_RESPONSE_MM)
     if local.volume_mm3 == 0 and is_raised:  # the median is on its flat top
         return _local_contact(cells_mm, sensor, is_wide=True)
     return local

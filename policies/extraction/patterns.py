@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import re
 from enum import Enum, auto
+from functools import lru_cache
 from itertools import chain
 from typing import NamedTuple
 
@@ -219,8 +220,9 @@ _KNOWN = frozenset(re.findall(r"[a-z%]+", " ".join((_CONTACT_WORDS, *chain(*CLAS
 _AIM = _KNOWN.union(DESCRIPTORS, ("achieve", "bring", "make", "get", "reach"))
 
 
+@lru_cache(maxsize=256)
 def read(clause: Clause) -> Reading:
-    """What one clause says."""
+    """What one clause says. Most come again from step to step."""
     text, words = f"{clause.text} ", clause.text.split()
     if not 0 < len(words) <= MAX_WORDS:
         return Reading(kind=Kind.UNKNOWN)

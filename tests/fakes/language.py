@@ -42,19 +42,28 @@ def _number(part: NumberRange, rng: random.Random) -> str:
 class FakeDecoder:
     """A decoder whose logits, which are its states, are a function of the tokens so far.
 
-    It counts its passes, and checks that it is used as ``FastDecoder`` can be.
+    It counts its passes, and checks that it is used as ``FastDecoder`` can be. With ``reduced``
+    logits those are what it gives from a begin on that allows it.
     """
 
     longest = 512
 
-    def __init__(self, logits: Callable[[tuple[int, ...]], torch.Tensor]) -> None:
-        self._logits = logits
+    def __init__(
+        self,
+        logits: Callable[[tuple[int, ...]], torch.Tensor],
+        reduced: Callable[[tuple[int, ...]], torch.Tensor] | None = None,
+    ) -> None:
+        self._precise, self._rounded = logits, reduced
+        self.is_reduced = False
         self._tokens: list[int] = []
         self._num_inputs = 0
         self.passes = 0
 
-    def begin(self, embeddings: torch.Tensor, tokens: Sequence[int] = ()) -> list[torch.Tensor]:
+    def begin(
+        self, embeddings: torch.Tensor, tokens: Sequence[int] = (), *, reduced: bool = False
+    ) -> list[torch.Tensor]:
         self._num_inputs, self._tokens = len(embeddings), []
+        self.is_reduced = reduced and self._rounded is not None
         self.passes += 1
         return [self._logits(()), *self._feed(tokens)]
 
@@ -69,6 +78,9 @@ class FakeDecoder:
     def rewind(self, length: int) -> None:
         assert 0 <= length - self._num_inputs <= len(self._tokens)
         del self._tokens[length - self._num_inputs :]
+
+    def _logits(self, said: tuple[int, ...]) -> torch.Tensor:
+        return self._rounded(said) if self.is_reduced and self._rounded else self._precise(said)
 
     def _feed(self, tokens: Sequence[int]) -> list[torch.Tensor]:
         rows = []

@@ -171,7 +171,13 @@ def _print_language(report: dict[str, Any], console: Console) -> None:
         f"tokens said: {report['tokens']['p50']} (median), {report['tokens']['max']} at most, in "
         f"{passes['p50']:.0f} passes (median), {passes['p90']:.0f} (90 %); "
         f"{report['same_without_draft']} of {report['contacts']} replies are the same without a "
-        f"draft, {report['close_calls']} decisions were close; {report['threads']} thread(s); "
+        f"draft, {report['close_calls']} decisions were close; {report['threads']} thread(s)"
+    )
+    whole = report["tick_ms_in_32_bits"]
+    console.print(
+        f"long passes in {report['precision']}; in 32 bits {report['same_in_32_bits']} of "
+        f"{report['contacts']} replies are the same, a whole step takes {whole['p50']:.2f} ms "
+        f"(p50), {whole['p99']:.2f} ms (p99); "
         f"floors at the {report['product_gflops']:.1f} GFLOP/s of a matrix product in this run"
     )
     console.print(

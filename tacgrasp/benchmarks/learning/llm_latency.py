@@ -14,6 +14,7 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any, cast
 
@@ -33,7 +34,7 @@ from primitives.contract import Contract
 from tacgrasp.base.errors import UsageError
 from tacgrasp.benchmarks.figures import times_ms
 
-BASELINE_RUNS = 5
+BASELINE_RUNS = PRECISE_RUNS = 5
 START_LIMIT_S = 120.0
 PRODUCT_SIZE = 768
 """Edge of the square matrices whose product is the machine's rate; large enough for its best."""
@@ -58,18 +59,26 @@ def language_report(
         stages_ms: Measured durations by stage, with ``p50`` [ms].
 
     Returns:
-        ``contacts``, ``same_without_draft``, ``tokens``, ``passes``, ``close_calls``,
-        ``threads``, ``product_gflops``, ``floors``, ``with_cache_ms``, ``speedup_cached``.
+        ``contacts``, ``same_without_draft``, ``same_in_32_bits``, ``tokens``, ``passes``,
+        ``close_calls``, ``precision``, ``tick_ms_in_32_bits``, ``threads``, ``product_gflops``,
+        ``floors``, ``with_cache_ms``, ``speedup_cached``.
     """
     terms = contract.terms
-    said, plain = (
-        [
-            each.say(Observation(cloud=cloud, in_contact=True), terms.force_n, terms.limit_n)
-            for cloud in clouds
-        ]
-        for each in (policy, policy.through(cast(Talker, _Undrafted(policy.talker))))
+    observations = [Observation(cloud=cloud, in_contact=True) for cloud in clouds]
+    precise = policy.through(Talker(policy.talker.model, reduces=False))
+    said, plain, precisely = (
+        [each.say(felt, terms.force_n, terms.limit_n) for felt in observations]
+        for each in (policy, policy.through(cast(Talker, _Undrafted(policy.talker))), precise)
     )
-    same = [a.reply.text == b.reply.text for a, b in zip(said, plain, strict=True)]
+    same, same_precisely = (
+        sum(a.reply.text == b.reply.text for a, b in zip(said, other, strict=True))
+        for other in (plain, precisely)
+    )
+    precise_ms = [
+        each_ms
+        for felt in observations
+        for each_ms in times_ms(partial(precise.decide, felt, contract), PRECISE_RUNS)
+    ]
     lengths = [each.reply.num_tokens for each in said]
     tokens, rate = int(np.median(lengths)), product_rate()
     request = step_request(terms.force_n, terms.limit_n)
@@ -87,10 +96,13 @@ def language_report(
     cached_ms = with_cache_ms(policy.talker, lm_folder, said[0], request)
     return {
         "contacts": len(said),
-        "same_without_draft": sum(same),
+        "same_without_draft": same,
+        "same_in_32_bits": same_precisely,
         "tokens": {"p50": tokens, "max": max(lengths)},
         "passes": _quantiles([each.reply.passes for each in said]),
         "close_calls": sum(each.reply.close_calls for each in said),
+        "precision": "bfloat16" if policy.talker.reduces else "float32",
+        "tick_ms_in_32_bits": _quantiles(precise_ms, 99),
         "threads": torch.get_num_threads(),
         "product_gflops": rate / 1e9,
         "floors": floors,
@@ -110,9 +122,9 @@ class _Undrafted:
         return self._talker.reply_to(*args, **options)
 
 
-def _quantiles(counts: Sequence[int]) -> dict[str, float]:
-    p50, p90 = np.percentile(counts, [50, 90])
-    return {"p50": float(p50), "p90": float(p90)}
+def _quantiles(values: Sequence[float], upper: int = 90) -> dict[str, float]:
+    p50, most = np.percentile(values, [50, upper])
+    return {"p50": float(p50), f"p{upper}": float(most)}
 
 
 def operations(talker: Talker, said: SaidStep, request: str) -> dict[str, int]:

@@ -7,7 +7,12 @@ import pytest
 import torch
 
 from cltp.errors import TouchError
-from cltp.llm.constrained.decode import CLOSE, Constrained, ConstrainedDecoder
+from cltp.llm.constrained.decode import (
+    CLOSE,
+    CLOSE_REDUCED,
+    Constrained,
+    ConstrainedDecoder,
+)
 from cltp.llm.constrained.grammar import NumberRange, Option, TextChoice, Verbatim, match
 from cltp.llm.constrained.tokens import TextTokens
 from cltp.llm.fast_decode import FastDecoder
@@ -250,8 +255,8 @@ def test_close_decisions_are_taken_from_a_pass_of_their_own(words: Words) -> Non
     class Rounding(FakeDecoder):
         """Passes over several tokens at once say 'slight', others 'deep', by a hair."""
 
-        def begin(self, embeddings, tokens=()):
-            rows = super().begin(embeddings, tokens)
+        def begin(self, embeddings, tokens=(), *, reduced=False):
+            rows = super().begin(embeddings, tokens, reduced=reduced)
             more = torch.zeros(len(words))
             more[slight if len(tokens) > 4 else deep] = CLOSE / 4
             return [row + more for row in rows]
@@ -268,6 +273,47 @@ def test_close_decisions_are_taken_from_a_pass_of_their_own(words: Words) -> Non
     assert drafted.text == plain.text
     assert plain.close_calls >= 1
     assert drafted.close_calls >= 1
+
+
+@pytest.mark.parametrize("scale", [3.0, 0.1])
+def test_what_reduced_precision_rounds_decides_nothing(words: Words, scale: float) -> None:
+    """Logits are off by half of ``CLOSE_REDUCED`` until tokens are run through again."""
+    closest = 0
+    for seed in range(30):
+        logits = random_logits(len(words), seed, scale)
+        error = random_logits(len(words), 1000 + seed, 1.0)
+
+        def rounded(said: tuple[int, ...], logits=logits, error=error) -> torch.Tensor:
+            return logits(said) + error(said).clamp(-1, 1) * CLOSE_REDUCED / 4
+
+        reduced = FakeDecoder(logits, rounded)
+        _, precise = decoder_of(words, logits)
+        draft = random_text(GRAMMAR, random.Random(seed)) if seed % 2 else ""
+        expected = precise.decode(INPUTS, GRAMMAR, draft=draft)
+        found = ConstrainedDecoder(reduced, TextTokens(words.encode)).decode(
+            INPUTS, GRAMMAR, draft=draft
+        )
+        assert (found.text, found.ids, found.ended) == (expected.text, expected.ids, expected.ended)
+        refined = found.close_calls - expected.close_calls
+        assert refined in (0, 1)  # once run through again, a reply goes on in full precision
+        assert reduced.is_reduced == (refined == 0 and expected.close_calls == 0)
+        closest += refined
+    assert (closest > 20) == (scale < 1)
+
+
+def test_reduced_passes_are_nearly_precise_and_a_new_begin_is_precise() -> None:
+    lm = random_lm(60, 1)
+    inputs, tokens = torch.randn(40, 48), [3, 14, 15, 9, 26, 5]
+    precise, reduced = FastDecoder(lm), FastDecoder(lm, reduces=True)
+    expected = precise.logits(precise.begin(inputs, tokens))
+    found = reduced.logits(reduced.begin(inputs, tokens, reduced=True))
+    assert reduced.is_reduced
+    assert not torch.equal(found, expected)
+    assert (found - expected).std() < 0.03 * expected.std()
+    assert torch.equal(reduced.logits(reduced.begin(inputs, tokens)), expected)
+    assert not reduced.is_reduced
+    precise.begin(inputs, tokens, reduced=True)
+    assert not precise.is_reduced
 
 
 def test_a_reply_beyond_the_positions_is_cut_off_and_says_so(words: Words) -> None:

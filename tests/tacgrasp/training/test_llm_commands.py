@@ -347,7 +347,9 @@ def test_latency_puts_every_stage_beside_its_floor_and_transformers_beside_ours(
     stages = ["sample", "encode", "project", "read", "prefill", "generate", "extract", "record"]
     assert list(found["stages_ms"]) == stages
     assert set(found["floors"]) == {"encode", "project", "prefill"}
-    assert (found["contacts"], found["same_without_draft"]) == (4, 4)
+    assert (found["contacts"], found["same_without_draft"], found["same_in_32_bits"]) == (4, 4, 4)
+    assert found["precision"] in ("bfloat16", "float32")
+    assert found["tick_ms_in_32_bits"].keys() == {"p50", "p99"}
     assert found["tokens"]["p50"] > 40
     assert 1 <= found["passes"]["p50"] <= found["tokens"]["p50"]
     assert found["speedup_cached"] > 0
