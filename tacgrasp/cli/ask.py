@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import io
 import json
-import os
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
@@ -79,18 +78,21 @@ class AskFlags(ContactFlags):
 def main(argv: Sequence[str]) -> int:
     """Answer one question, or those of a dialogue."""
     flags = parse(AskFlags, argv, prog="tacgrasp ask")
-    named = _contract(flags)
+    named = _band(flags)
     from cltp.sensing.touch_files import path_in_errors
     from tacgrasp.console import make_console, working
     from tacgrasp.playback.conversation import Conversation
     from tacgrasp.policy_factory import load_llm
 
-    cloud, recorded, _ = flags.read()
+    contact = flags.read()
+    contract = named or contact.contract
+    if (flags.task or flags.instruction) is not None:
+        contract = flags.contract_in_words(contact, flags.instruction, flags.task)
     with working("loading the language model"):
         policy = load_llm(flags.weights or flags.llm.dir)
     try:
         with path_in_errors(flags.file):
-            talk = Conversation(cloud, policy.talker, contract=named or recorded, mass_g=flags.mass)
+            talk = Conversation(contact.cloud, policy.talker, contract=contract, mass_g=flags.mass)
     except ValueError as error:
         raise UsageError(f"--mass: {error}") from None
     console = make_console()
@@ -121,28 +123,17 @@ def main(argv: Sequence[str]) -> int:
     return _answer_lines(talk, policy.check, show, show_error, show_blank)
 
 
-def _contract(flags: AskFlags) -> Contract | None:
-    """The contract that the flags name; None where they name none."""
+def _band(flags: AskFlags) -> Contract | None:
+    """The contract of --goal and --limit; None without them."""
     from primitives.errors import LimitError
-    from tacgrasp.config.layers import load
-    from tacgrasp.config.terms import contract_of
     from tacgrasp.lessons.dialogue.scene import band_contract
 
-    if flags.goal is not None:
-        try:
-            return band_contract(*flags.goal, flags.limit)
-        except (LimitError, ValueError) as error:
-            raise UsageError(f"--goal, --limit: {error}") from None
-    if flags.task is None and flags.instruction is None:
+    if flags.goal is None:
         return None
-    config, sources = load(flags.task, None, os.environ)
-    if flags.instruction is not None:
-        config = config.model_copy(update={"instruction": flags.instruction})
-        sources = {**sources, "instruction": "the command line"}
-    contract = contract_of(config, sources)
-    if contract.refused:
-        raise UsageError(f"the instruction is refused: {contract.refused}")
-    return contract
+    try:
+        return band_contract(*flags.goal, flags.limit)
+    except (LimitError, ValueError) as error:
+        raise UsageError(f"--goal, --limit: {error}") from None
 
 
 def _answer(talk: Conversation, check: Callable[[str], None], question: str) -> Spoken:

@@ -1,17 +1,21 @@
-"""The flags that ``describe`` and ``ask`` name a contact by.
+"""The flags that ``describe`` and ``ask`` name a contact by, and its contract in words.
 
-Not here: reading it (``tacgrasp.playback.contact_file``).
+Not here: reading the contact (``tacgrasp.playback.contact_file``).
 """
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import tyro
 
+from tacgrasp.cli.incomplete import warn_of_gaps
+
 if TYPE_CHECKING:
+    from primitives.contract import Contract
     from tacgrasp.playback.contact_file import ContactFile
 
 
@@ -34,13 +38,48 @@ class ContactFlags:
     calibration: Path | None = None
 
     def read(self) -> ContactFile:
-        """Read the contact; errors as for ``tacgrasp.playback.contact_file.read_contact``."""
+        """Read the contact; errors as for ``tacgrasp.playback.contact_file.read_contact``.
+
+        What an episode lacks is told on standard error: its last step may be missing.
+        """
         from tacgrasp.playback.contact_file import read_contact
 
-        return read_contact(
+        contact = read_contact(
             self.file,
             self.sensor,
             background=self.background,
             calibration=self.calibration,
             step=self.step,
         )
+        if contact.episode is not None:
+            warn_of_gaps(contact.episode, self.file)
+        return contact
+
+    def contract_in_words(
+        self, contact: ContactFile, instruction: str | None, task: str | None = None
+    ) -> Contract:
+        """Contract of an instruction for a task, or for the run that a contact was recorded in.
+
+        Args:
+            contact: The contact.
+            instruction: The instruction; None takes the task's own.
+            task: Name or path; None takes an instruction for the episode's run, where there is
+                one, and the usual task otherwise.
+
+        Raises:
+            UsageError: No such task, or the instruction is refused.
+            EpisodeError: The episode's configuration is of another version.
+        """
+        from tacgrasp.base.errors import UsageError
+        from tacgrasp.config.layers import load
+        from tacgrasp.config.terms import worded_contract
+        from tacgrasp.playback.replay import config_of
+
+        if task is None and instruction is not None and contact.episode is not None:
+            config, sources = config_of(contact.episode, self.file), None
+        else:
+            config, sources = load(task, None, os.environ)
+        contract = worded_contract(instruction or config.instruction, config, sources)
+        if contract.refused:
+            raise UsageError(f"the instruction is refused: {contract.refused}")
+        return contract

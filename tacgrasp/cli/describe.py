@@ -8,7 +8,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from tacgrasp.base.errors import UsageError
 from tacgrasp.cli.contact_flags import ContactFlags
 from tacgrasp.cli.flags import parse
 
@@ -40,8 +39,6 @@ def main(argv: Sequence[str]) -> int:
     from cltp.sensing.touch_files import path_in_errors
     from cltp.tactile.contact.raised_pad import is_raised
     from cltp.tactile.contact.single_cloud import is_touched
-    from tacgrasp.config.layers import load
-    from tacgrasp.config.terms import contract_of
     from tacgrasp.console import make_console, working
     from tacgrasp.playback.describe import (
         describe,
@@ -52,15 +49,16 @@ def main(argv: Sequence[str]) -> int:
     from tacgrasp.policy_factory import default_weights, load_llm, shipped_weights
 
     console = make_console()
-    cloud, contract, about = flags.read()
+    contact = flags.read()
+    cloud, contract = contact.cloud, contact.contract
     with path_in_errors(flags.file):
         touched = is_touched(cloud)
     if flags.json:
         reader = make_reader(flags.weights or default_weights())
         sys.stdout.write(json.dumps(describe_in_numbers(cloud, reader), indent=2) + "\n")
         return 0
-    if about:
-        console.print(f"step      {about}")
+    if contact.about:
+        console.print(f"step      {contact.about}")
     for line in describe(cloud):
         console.print(line)
     if is_raised(cloud) or not touched:
@@ -73,13 +71,7 @@ def main(argv: Sequence[str]) -> int:
         )
         return 0
     if contract is None or flags.instruction is not None:
-        config, sources = load("strawberry")
-        if flags.instruction is not None:
-            config = config.model_copy(update={"instruction": flags.instruction})
-            sources = {**sources, "instruction": "the command line"}
-        contract = contract_of(config, sources)
-    if contract.refused:
-        raise UsageError(f"--instruction is refused: {contract.refused}")
+        contract = flags.contract_in_words(contact, flags.instruction)
     with working("loading the language model"):
         model = load_llm(weights)
     for line in describe_by_model(cloud, model, contract):

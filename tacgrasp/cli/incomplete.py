@@ -19,11 +19,17 @@ def read_and_warn(path: Path) -> Episode:
     Raises:
         EpisodeError: As for ``read_episode``.
     """
-    from tacgrasp.base.printable import printable
     from tacgrasp.episodes import read_episode
-    from tacgrasp.episodes.reader import incomplete_text
 
     episode = read_episode(path)
+    warn_of_gaps(episode, path)
+    return episode
+
+
+def warn_of_gaps(episode: Episode, path: Path) -> None:
+    """Tell on standard error what an episode lacks, in a line; nothing where it is complete."""
+    from tacgrasp.base.printable import printable
+    from tacgrasp.episodes.reader import incomplete_text
+
     if text := incomplete_text(episode, path):
         sys.stderr.write(f"tacgrasp: {path} is incomplete: {printable(text)}\n")
-    return episode

@@ -35,12 +35,11 @@ def main(argv: Sequence[str]) -> int:
     flags = parse(UnderstandFlags, argv, prog="tacgrasp understand")
     writable(flags.json)
     from tacgrasp.config.layers import load
-    from tacgrasp.config.terms import contract_json, contract_lines, contract_of
+    from tacgrasp.config.terms import contract_json, contract_lines, worded_contract
     from tacgrasp.console import make_console
 
     config, sources = load(flags.task, flags.rig, os.environ)
-    config = config.model_copy(update={"instruction": flags.instruction})
-    contract = contract_of(config, {**sources, "instruction": "the command line"})
+    contract = worded_contract(flags.instruction, config, sources)
     console = make_console()
     for line in contract_lines(contract):
         console.print(line)

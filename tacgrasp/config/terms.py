@@ -42,6 +42,22 @@ def contract_of(config: RunConfig, sources: Mapping[str, str] | None = None) -> 
     return read_contract(config.instruction, task_terms(config, sources), given(config, sources))
 
 
+def worded_contract(
+    instruction: str, config: RunConfig, sources: Mapping[str, str] | None = None
+) -> Contract:
+    """Contract of a run with an instruction of the command line in place of its own.
+
+    Args:
+        instruction: The instruction.
+        config: The run.
+        sources: As for ``contract_of``.
+    """
+    config = config.model_copy(update={"instruction": instruction})
+    if sources is not None:
+        sources = {**sources, "instruction": "the command line"}
+    return contract_of(config, sources)
+
+
 def task_terms(config: RunConfig, sources: Mapping[str, str] | None = None) -> TaskTerms:
     """Terms of the task's own file, and of the rig's gripper."""
     goal, instruction = config.goal, config.instruction

@@ -13,7 +13,7 @@ from cltp.tactile.cloud import TactileCloud
 from cltp.tactile.sensors import sensor_named
 from primitives.contract import Contract
 from tacgrasp.base.errors import UsageError
-from tacgrasp.episodes import read_episode
+from tacgrasp.episodes import Episode, read_episode
 from tacgrasp.episodes.record import PHASE_LABELS
 
 EPISODE_SUFFIX = ".mcap"
@@ -27,11 +27,13 @@ class ContactFile(NamedTuple):
         contract: Contract of the episode in this step, with the step's target as its band; None
             for other files, and in episodes of older versions.
         about: Which step of the episode it is, for people; '' for other files.
+        episode: The episode; None for other files.
     """
 
     cloud: TactileCloud
     contract: Contract | None
-    about: str
+    about: str = ""
+    episode: Episode | None = None
 
 
 def read_contact(
@@ -62,7 +64,7 @@ def read_contact(
         raise UsageError(f"--step is for an episode ({EPISODE_SUFFIX}), {path} is none")
     named = sensor_named(sensor)
     cloud = read_cloud(path, named, background=background, calibration=calibration)
-    return ContactFile(cloud, None, "")
+    return ContactFile(cloud, None)
 
 
 def _step_contact(path: Path, number: int | None) -> ContactFile:
@@ -78,5 +80,6 @@ def _step_contact(path: Path, number: int | None) -> ContactFile:
         if step.index == number:
             target = None if contract is None else step.under(contract)
             label = PHASE_LABELS.get(step.phase, "")
-            return ContactFile(step.cloud, target, f"{number} of 0 to {last} {label}".rstrip())
+            about = f"{number} of 0 to {last} {label}".rstrip()
+            return ContactFile(step.cloud, target, about, episode)
     raise UsageError(f"{path} has no step {number}; its steps are 0 to {last}")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -17,6 +18,7 @@ from tacgrasp.playback.contact_file import read_contact
 from tests.fakes.contracts import contract
 from tests.fakes.episode_samples import header, step_record
 
+FORCES = re.compile(r"(?:Goal |understood: .*, )(\d\.\d\d) ?- ?(\d\.\d\d) N")
 FIRST, SOFTER = contract(1.0, 2.0, 2.5), contract(0.5, 1.0, 1.25)
 NEED = Need(force_n=Band(low=0.6, high=0.7), felt="30 mm wide")
 
@@ -71,3 +73,38 @@ def test_a_step_of_an_episode_is_described(
     printed = capsys.readouterr().out
     assert printed.startswith("step      1 of 0 to 3\nsensor    gelsight_mini")
     assert "Goal 0.50 - 1.00 N" in printed
+
+
+def test_words_are_read_under_the_task_of_the_episode(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """An egg takes more than a strawberry, and "gently" is a part of either's band."""
+    folder = ["--record", str(tmp_path)]
+    assert main(["run", "--task", "egg", "--policy", "rules", "--seed", "3", *folder]) == 0
+    (episode,) = tmp_path.glob("*.mcap")
+    capsys.readouterr()
+    goals = []
+    for argv in (
+        ["describe", str(episode), "--instruction", "hold it very gently"],
+        ["understand", "hold it very gently", "--task", "egg"],
+        ["understand", "hold it very gently", "--task", "strawberry"],
+    ):
+        assert main(argv) == 0
+        printed = capsys.readouterr().out
+        found = FORCES.search(printed)
+        assert found is not None
+        goals.append([float(end) for end in found.groups()])
+    assert goals[0] == goals[1] != goals[2]
+    assert main(["describe", str(episode), "--instruction", "crush it"]) == 2
+    assert "refused" in capsys.readouterr().err
+
+
+def test_what_an_episode_lacks_is_told_before_its_last_step(
+    episode: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    data = episode.read_bytes()
+    episode.write_bytes(data[: len(data) * 2 // 3])
+    assert main(["describe", str(episode)]) == 0
+    printed = capsys.readouterr()
+    assert "is incomplete" in printed.err
+    assert printed.out.startswith("step ")
