@@ -10,6 +10,7 @@ import re
 from typing import NamedTuple
 
 from policies.instructions.english import words
+from policies.instructions.english.number_pattern import NumberPattern
 from policies.instructions.quantities.force import MARK
 from policies.instructions.quantities.force_units import NUMBER, ONE_FORCE, UNIT
 from policies.instructions.quantities.masses import OBJECT
@@ -18,7 +19,7 @@ _TAKES = (
     r"(?:needs?|needed|takes?|took|wants?|wanted|requires?|required|gets?|got|calls? for|likes?|(?:can|could|may|might|must|should|will|would) (?:\w+ )?(?:take|get|have|stand|bear|need)|"
     r"(?:is|was|were|are) (?:held|gripped|picked|done|fine|happy|good|set|run) (?:up )?(?:with|at))"
 )
-_OF_OBJECT = re.compile(
+_OF_OBJECT = NumberPattern(
     rf"\b(?P<object>{OBJECT})(?: (?:here|there|before|yesterday|earlier|over there))?,? "
     rf"(?:(?:which|that|it|usually|always|normally|only|really|just) )*{_TAKES} "
     rf"(?:(?:about|around|roughly|some|only|just|at least|at most|up to|a|an) )*(?P<force>{ONE_FORCE}"
@@ -26,19 +27,19 @@ _OF_OBJECT = re.compile(
 )
 """'The egg which needs 4 N'."""
 _NEWTONS = rf"{NUMBER}\s*-?\s*(?:{UNIT})\b"
-_WEIGHT = re.compile(
+_WEIGHT = NumberPattern(
     rf"\b(?:weigh(?:s|ed|ing)?(?: in)?(?: at)?|weight(?: of| is| was|:)?|label(?:l?ed)?|marked|engraved|stamped)(?: (?:about|around|roughly|only|just))? ?['\"]?(?P<force>{_NEWTONS})"
     rf"|(?P<other>{_NEWTONS})['\"]? (?:(?:test|dead|brass|steel|calibration) )?(?:weights?|springs?|dumb-?bells?|magnets?|load cells?|sensors?|(?:force )?gauges?|heavy|in weight)\b"
 )
 """'The apple that weighs 1.5 N', 'beside the 2 N weight'."""
-_DEVICE = re.compile(
+_DEVICE = NumberPattern(
     rf"\b(?:load ?cell|friction|lid|suction|vacuum|spring|magnet\w*|cable|belt|motor|payload|preload)(?: (?:range|force|capacity|rating|load|pull))+(?: (?:is|of|about))* ?:? ?(?P<force>{_NEWTONS})"
     rf"|\b(?:while|when|as) (?:i|we|he|she|they|someone) (?:pull|push|tug|lift|press)\w*(?: (?:on )?(?:it|the \w+))? (?:with|at|by) (?P<mine>{_NEWTONS})"
     rf"|(?P<other>{_NEWTONS}) of (?:suction|vacuum|pull|friction|thrust|drag)\b"
 )
 """'Load cell range 5 N', 'while I pull with 3 N', '3 N of suction'."""
 _AS_MUCH_AS = re.compile(r"\b(?:as \w+ as|like|than)(?: (?:the|an?|that|this|my|our))? $")
-_PART = re.compile(
+_PART = NumberPattern(
     rf"\b(?:stem|stalk|lid|cap|cork|label|peel|leaf|leaves|calyx|sticker|button|key|switch|latch|zip)s? (?:\w+ )?(?:comes?|came|pulls?|pulled|peels?|breaks?|snaps?|pops?|detach\w*|separat\w*|opens?|clicks?|holds?|needs|takes|resists)\b[^.;,#]{{0,30}}?(?P<force>{ONE_FORCE})"
 )
 """'The stem comes off with 2.5 N'."""
@@ -46,7 +47,7 @@ _ANY = re.compile(r"specimen|sample|object|item|piece|thing\w*|target|ones?")
 """What may be any object: 'pick this one, the egg needs 3 N' is about one."""
 _THAT_TOOK = re.compile(r"ones?,? (?:that|which) (?:took|needed|wanted|required|got|was|were)\b")
 """'Riper than the one that took 2 N'."""
-_LIFTED = re.compile(
+_LIFTED = NumberPattern(
     rf"\b(?:there is )?(?:no need|no reason|not (?:need|have)|not (?:necessary|needed|required|true that (?:it|you) (?:must|has|have))|need not)(?: (?!not\b|never\b)\w+){{0,4}}? (?:below|under|beneath|less than) {ONE_FORCE}"
 )
 """'There is no need to stay below 1 N': a bound that is lifted asks for nothing."""
@@ -54,7 +55,7 @@ _THING = rf"(?:the |an? |my |our |your |his |her |that |this |those |these |all 
 _BOUND = r"(?:(?:upper|lower|force|grip|hard|top|safe|allowed|maximum|minimum|max|min) )*(?:limits?|max(?:imum)?|min(?:imum)?|ceiling|cap|bound|threshold|force|target|set-?point|setting|preset|recipe|profile)"
 _FIGURE = rf"(?:(?:of|at|is|was|are|to|about|around|only|just|at most|at least|no more than|not more than|up to|never more than|under|below|max|maximum|:|=) ?)*(?P<force>{ONE_FORCE}(?: ?(?:to|-|–|and) ?{ONE_FORCE})?)"
 _BOUND_OF = tuple(
-    re.compile(pattern)
+    NumberPattern(pattern)
     for pattern in (
         rf"\b{_BOUND} (?:on|for|of|with) {_THING},? {_FIGURE}",
         rf"\b{_THING}(?:'s?)? {_BOUND},? {_FIGURE}",
@@ -70,7 +71,7 @@ _HELD = re.compile(
 )
 """'Pick the ripe berry'."""
 _AN_OBJECT = rf"(?:for|on|to) (?:the |this |these |my |our |an? )?{OBJECT}"
-_GIVEN = re.compile(
+_GIVEN = NumberPattern(
     rf"\b(?:use|apply|take|set|try|give|go with|make it)\b[^.;]*{ONE_FORCE}|"
     rf"{ONE_FORCE} {_AN_OBJECT}|\b{_AN_OBJECT}\b[^.;]*{ONE_FORCE}"
 )
@@ -80,7 +81,7 @@ _SAME = re.compile(
 )
 """What gives the bound of another object to this one."""
 _CLAUSE = re.compile(r"[.,;:!?()](?!\d)|\s[-–—]+\s|—|\b(?:and|but|while|because|since|so|as)\b")
-_ALLOWED = re.compile(
+_ALLOWED = NumberPattern(
     r"\b(?:you (?:may|can|could|might|are (?:allowed|free|welcome|permitted) to)|feel free to|"
     r"(?:it is|that is|it would be|i am) (?:perfectly |quite |absolutely )?(?:fine|ok(?:ay)?|al(?:l )?right|no problem|acceptable|happy)(?: with me| by me)?"
     r" (?:if (?:it|you|the (?:force|grip)) |to |for you to )|(?:i|we) do not (?:mind|care) if (?:it|you|the (?:force|grip)) )"

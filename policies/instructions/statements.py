@@ -13,6 +13,7 @@ import re
 from dataclasses import dataclass
 
 from policies.instructions.english import words
+from policies.instructions.english.number_pattern import NumberPattern
 from policies.instructions.english.text import sentences
 from policies.instructions.quantities.force import MARK
 from policies.instructions.quantities.force_units import ONE_FORCE
@@ -43,7 +44,7 @@ _CLAUSE = re.compile(
     r"[.;:!?,()](?!\d)\s*|\s[-–—]+\s(?!\d)|—(?!\d)|…|\s(?=(?:but|because|since|whereas|while|so|hence|thus|therefore)\b)"
 )
 _ENDS = re.compile(r"[.;!?](?!\d)\s*")
-_FORCE = re.compile(rf"{ONE_FORCE}(?:\s*(?:to|-|–|and|or)\s*{ONE_FORCE})?")
+_FORCE = NumberPattern(rf"{ONE_FORCE}(?:\s*(?:to|-|–|and|or)\s*{ONE_FORCE})?")
 _NOT_MEANT, _CONDITION, _GAUGE = map(_section, ("not_meant", "condition", "gauge"))
 _SAYS = _section("says_a_force")
 _IN_CHARGE = words.any_of("in_charge")
@@ -65,7 +66,7 @@ _CORRECTED = re.compile(rf"\b(?:{words.any_of('correction')}|sorry|wait|misread|
 _PAST = r"(?:yesterday(?:'s)?|(?<!for the )(?<!on the )last (?!chance\b|call\b|thing\b)[a-z]+(?:'s)?|(?:previous|former|old|earlier) (?:one|time|berry|setting|value|figure|number|order|wish|request|run|job|shift)(?:'s)?|previously|earlier|the other day|back then|formerly|before(?! (?:you|we|i|it|the|they|that|[a-z]+ing)\b)|this morning|used to)\b"
 _HABIT = r"(?:in the morning|usually|normally|by default|(?:the|our|my) (?:normal|usual|standard|default|factory|regular|nominal)(?: [a-z]+)? is|(?:is|would be) (?:the |our |my )?(?:normal|usual|standard|default|regular))\b"
 _LESS = r"(?:less|lower|softer|gentler|lighter|looser|weaker|easier|more|higher|harder|firmer|tighter|stronger)"
-_SINCE = re.compile(
+_SINCE = NumberPattern(
     rf"(?:\b(?:{_PAST}|{_HABIT})[^;?!]*?(?P<a>{ONE_FORCE})|(?P<b>{ONE_FORCE})(?:,? (?:that|it|which) (?:is|was)\b)?[^,;?!]*?\b(?:{_PAST}|{_HABIT}))(?:(?P<change>[^\d]*\b(?:{_LESS}|reduced?|gent(?:le|ly)|soft(?:ly)?|light(?:ly)?|careful(?:ly)?|firmly|hard|change|different\w*|otherwise|not (?:that|so) much)\b[^\d]*)|[\s.!]*)$"
 )
 """'1.5 N is what I asked for yesterday; today I want less'."""
@@ -138,7 +139,7 @@ _NAMED = re.compile(
 _FIRST_THING = re.compile(r"^(?:[a-z'-]+ ){0,2}[a-z'-]+[,:] (?=[^,:]*\d)")
 """'Cuvette, 0.8 N'."""
 _LAST_THING = re.compile(r"(?<=\w), (?:[a-z'-]+ )?[a-z'-]+[.! ]*$")
-_QUOTED = re.compile(
+_QUOTED = NumberPattern(
     rf"[\"“][^\"”]*{ONE_FORCE}[^\"”]*[\"”]|(?<![a-z])'[^']*{ONE_FORCE}[^']*'(?![a-z])"
 )
 _NEEDS = re.compile(r"(?<!^)\b(?:needs?|needed|takes?|requires?|required)\b")
@@ -198,7 +199,7 @@ def _past_force(text: str) -> str:
     """The words of a force of the past in whose place less or more is asked for; '' for none."""
     text = _THAN_PAST.sub("less", text)
     found = _SINCE.search(text)
-    is_one = len(_FORCE.findall(text)) == 1
+    is_one = len(list(_FORCE.finditer(text))) == 1
     if found is None or not is_one or _REFERRED.search(text) or _SAME.search(text):
         return ""
     if not found["change"] and (_AGREED.search(text) or not re.search(_PAST, found[0])):

@@ -11,13 +11,14 @@ from __future__ import annotations
 import re
 
 from policies.instructions.english import words
+from policies.instructions.english.number_pattern import NumberPattern
 from policies.instructions.quantities.force_units import ONE_FORCE
 
-_OVER = re.compile(
+_OVER = NumberPattern(
     rf"(?:\b(?:more than|over|above|beyond|past|exceed\w*|surpass\w*|pass(?:es|ing)?|(?:higher|greater|harder|firmer|tighter|stronger|larger) than|in excess of|north of)"
     rf"|>)(?: (?:a|an|the|about|around|roughly|force of|total of))* ?{ONE_FORCE}|{ONE_FORCE},? (?:or|and) (?:more|above|over|higher|up|upwards?|greater|harder|firmer|beyond)\b"
 )
-_LEAST = re.compile(
+_LEAST = NumberPattern(
     rf"\b(?:at (?:the )?(?:very |absolute )?least|(?:a )?minimum(?: of)?|no less than) (?:about |around )?{ONE_FORCE}"
 )
 _CLAUSE = re.compile(
@@ -40,7 +41,7 @@ _HELD = re.compile(
     r"(?:\w+ ){0,2}\w+(?= (?:with|at|by|using|and|in|above|over|must|should|shall|to)\b|[,.;!]| ?$)"
 )
 """'Grip the rubber plug with', 'the force on the test tube': whatever it is."""
-_WARNED = re.compile(
+_WARNED = NumberPattern(
     rf"\b(?:careful|caution|warning|danger|attention|beware|watch out|mind)[:,!]? (?:of |for |about |with )?(?:{_OVER.pattern})"
 )
 _NOT_MEANT = re.compile(
@@ -49,7 +50,7 @@ _NOT_MEANT = re.compile(
 )
 """What shows that a force is no wish, wherever it stands."""
 _UNAFRAID = re.compile(r"\b(?:not|never) (?:hesitate|be afraid|fear|mind)(?: to| of)?\b")
-_OTHER_NEEDS = re.compile(
+_OTHER_NEEDS = NumberPattern(
     r"(?:^|(?<=[.;,] )|\b(?:and|but|because) )(?:the|my|our|your|an?|other|most|that) (?:\w+ )?"
     rf"(?!{_OURS}|{_CLIENTS}|(?:can|could|may|might|will|would)\b)"
     rf"[a-z]+ (?:usually |always |only |really |just )?(?:needs?|takes?|took|wants?|requires?|required|pulls?(?: with)?|saturates? at|clips? at|stalls? at|squeezes?(?: at| with)?) (?:about |around |only |just |at least )?{ONE_FORCE}"

@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 
 from policies.instructions.english.denials import FORBIDDEN_AFTER, NO_CASE
+from policies.instructions.english.number_pattern import NumberPattern
 from policies.instructions.quantities.force_units import LOOSE, NUMBER, UNIT, number
 
 _ONE = rf"(?P<one>{NUMBER}(?:\s*-?\s*(?:{UNIT}|{LOOSE})\b)?(?: of (?:grip )?force\b)?)"
@@ -33,7 +34,7 @@ _OR_LESS = r",? (?:or|and) (?:anything )?(?:less|under|below|lower|down|downward
 _THERE = r"[^.;:,#\d]{0,50}?"
 _NO_AND = r"(?:(?!\band\b)[^.;:,#\d]){0,50}?"
 
-_PLAIN: tuple[tuple[str, str], ...] = (
+_PLAIN = tuple((NumberPattern(pattern), plainly) for pattern, plainly in (
     (rf"\bnot (?:even )?(?:an?|one|{NUMBER})\s*(?:{UNIT}) (?:above|over|beyond|more than) {_ONE}", r"at most \g<one>"),
     (rf"\b(?:can|could|will|would|do) not you\b[^.;,#\d]*?\b{_LESS} {_ONE}", r"at most \g<one>"),
     (rf"\b(?:stay|steer|keep|remain)\w* (?:well |far |right )?(?:away|clear|off|out)(?: (?:from|of))?(?: the)? {_ONE}", r"at most \g<one>"),
@@ -60,7 +61,7 @@ _PLAIN: tuple[tuple[str, str], ...] = (
     (rf"(\b(?:not|never|no|nothing|avoid\w*|without)\b[^.;,#\d]*?\b{_MORE} {_ONE},? or) (?={_SHORT_WORDS}{_LESS} )", r"\1 not "),
     (rf"{_ONE},? but (?:a (?:bit|little|touch) |slightly |rather )?(?:softer|gentler|lighter|less|lower)\b(?! than)", r"less than \g<one>"),
     (rf"{_ONE},? (?:minus|less) (?:an?|some) (?:\w+ )?(?:bit|little|hair|touch|tad|smidge\w*)\b", r"less than \g<one>"),
-)  # fmt: skip
+))  # fmt: skip
 
 _THAN = re.compile(
     r"\b(more|less|fewer|greater|higher|lower|smaller|bigger|larger|harder|softer|firmer|gentler|tighter|lighter|stronger|weaker) (?:then|tan|thn|as|from|(?<!more )like)(?= (?:about |around |roughly |exactly )?[\d.])"
@@ -79,7 +80,7 @@ _NOT_MORE = re.compile(r"\b(not (?:\w+ )?(?:more|less|higher|harder|bigger)) (?=
 
 SLIGHTLY = 1.25
 """What is slightly more than a force is at most so many times it. Our choice."""
-_SLIGHTLY_MORE = re.compile(
+_SLIGHTLY_MORE = NumberPattern(
     rf"(?P<before>[^.;:,#\d]*?)\b(?:an? (?:(?:wee|tiny|little|small) )*(?:bit|little|touch|tad|hair|shade|smidge\w*|fraction|whisker)|just|slightly|barely|marginally) "
     rf"(?:more than|over|above|higher than|beyond|north of|past) (?P<value>{NUMBER})\s*-?\s*(?P<unit>(?:{UNIT})\b)"
 )
@@ -102,5 +103,5 @@ def with_plain_bounds(text: str) -> str:
     text = _FROM.sub(r"\1 ", _THAN.sub(r"\1 than", text))
     text = _SLIGHTLY_MORE.sub(_close_above, text)
     for pattern, plainly in _PLAIN:
-        text = re.sub(pattern, plainly, text)
+        text = pattern.sub(plainly, text)
     return text

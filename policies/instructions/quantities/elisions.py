@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 
 from policies.instructions.english import words
+from policies.instructions.english.number_pattern import NumberPattern
 from policies.instructions.quantities.force_units import ALONE, NUMBER, UNIT, in_newtons, number
 
 _BARE = NUMBER.removeprefix(ALONE)
@@ -20,21 +21,21 @@ _MORE = r"(?:more|harder|firmer|tighter|greater|higher|above|over)"
 _LESS = r"(?:less|softer|gentler|lighter|smaller|lower|below|under)"
 _TIMES = {"half": 0.5, "twice": 2.0, "double": 2.0, "triple": 3.0, "thrice": 3.0}
 _PARTS = {"third": 3, "quarter": 4, "fourth": 4, "fifth": 5, "tenth": 10}
-_MULTIPLE = re.compile(
+_MULTIPLE = NumberPattern(
     rf"(?:\b(?P<word>{'|'.join(_TIMES)})|(?P<times>{NUMBER})\s*(?:times|x|×|\*)|(?P<percent>{NUMBER}){_PERCENT}|"
     rf"\b(?:(?P<count>an?|\d) )?(?P<part>{'|'.join(_PARTS)})s?)(?: of| as [a-z]+ as| (?:(?P<more>{_MORE})|(?P<less>{_LESS})) than)?(?: the)?\s+{_ONE}"
 )
-_RELATIVE = re.compile(
+_RELATIVE = NumberPattern(
     rf"(?P<percent>{NUMBER}){_PERCENT} (?:(?P<more>{_MORE})|{_LESS}|off)(?: than)?\s+{_ONE}"
 )
 
-_SUM = re.compile(
+_SUM = NumberPattern(
     rf"(?P<a>{NUMBER})\s*(?P<u>(?:{UNIT})\b)?\s*(?P<sign>\+|\bplus\b|\bminus\b|\bless\b|\band (?:another|an extra|an additional)\b)\s*(?P<b>{_BARE})(?:\s*(?P<v>(?:{UNIT})\b))?(?!\s*(?:/|%|per ?cent\b|\d))"
 )
-_SUM_OF_PERCENT = re.compile(
+_SUM_OF_PERCENT = NumberPattern(
     rf"{_ONE}\s*(?P<sign>\+|-(?= ?\d)|\bplus\b|\bminus\b|\bless\b)\s*(?P<percent>{_BARE}){_PERCENT}"
 )
-_APART = re.compile(
+_APART = NumberPattern(
     rf"(?P<b>{NUMBER})\s*(?P<v>(?:{UNIT})\b) (?:(?P<more>{_MORE})|{_LESS}) than (?P<a>{NUMBER})\s*(?P<u>(?:{UNIT})\b)"
 )
 _OF_THAT = re.compile(
@@ -58,11 +59,11 @@ BEFORE_VALUE = rf"\b{_VALUE}{_ROUGHLY}\s*[:=]?\s*"
 _BEFORE = rf"(?:{BEFORE_BOUND}|{BEFORE_VALUE})"
 _AFTER = r"(?=\s*(?:$|[.,;:!?)](?![\d.])|[–—-] (?!\d)|(?:and|but|or|yet|please|then|(?:will|would)(?= (?:bruis|crush|hurt|damag|slip|break|squash))|is|bruis\w*|crush\w*|at (?:the )?(?:most|least)|max(?:imum)?|min(?:imum)?|for (?:me|us|now|this|that|today|the (?:berry|strawberry|fruit))|while|whilst|because|since|until|till|today|tonight|this time|thanks?|thank you|cheers|mate|love|dear|pal|when i|as i|if you)\b))"
 _HALVES = (
-    re.compile(rf"(?<!in )(?:\ban? |\b1 )?\bhalf(?= ?(?:-|–|to|and|or|up to) {_ONE})"),
+    NumberPattern(rf"(?<!in )(?:\ban? |\b1 )?\bhalf(?= ?(?:-|–|to|and|or|up to) {_ONE})"),
     re.compile(rf"(?<=(?:than|nder|over|elow|bove|most|east) )(?:an? )?half{_AFTER}"),
 )
 _HELD_AT = r"\b(?:(?:hold|grip|squeeze|press|grasp|clamp|pinch)(?: it| this| that| the \w+)? (?:at|to)|(?:set|put|keep|have|leave|run|try|make|dial|fix|peg|stick|whack|bring|turn|adjust|tune|ramp|crank|bump|give)(?: it| this| that| the \w+)?(?: up| down| in)? (?:at|to)|(?:go|going) (?:with|for|at|to)) "
-_QUANTITY = re.compile(
+_QUANTITY = NumberPattern(
     rf"{NUMBER}\s*-?\s*(?:(?P<force>(?:{UNIT})\b)|mm\b|cm\b|millimet\w+|[µμu]m\b|micro\w+|%|percent\b|per cent\b)"
 )
 _LINK = r"\s*(?:-|–|\bto\b|\bup to\b|\bthrough\b)\s*"
@@ -73,66 +74,66 @@ _BOUND_BEHIND = (
 )
 """What bounds a force and stands behind its number."""
 _BARES = (
-    re.compile(rf"\bbetween (?P<a>{NUMBER})(?: and |{_LINK})(?P<b>{_BARE}){_AFTER}"),
-    re.compile(rf"(?:{_BEFORE}|\bfrom |^)(?P<a>{NUMBER}){_LINK}(?P<b>{_BARE}){_AFTER}"),
-    re.compile(rf"{_BEFORE}(?P<a>{NUMBER}){_AFTER}"),
-    re.compile(
+    NumberPattern(rf"\bbetween (?P<a>{NUMBER})(?: and |{_LINK})(?P<b>{_BARE}){_AFTER}"),
+    NumberPattern(rf"(?:{_BEFORE}|\bfrom |^)(?P<a>{NUMBER}){_LINK}(?P<b>{_BARE}){_AFTER}"),
+    NumberPattern(rf"{_BEFORE}(?P<a>{NUMBER}){_AFTER}"),
+    NumberPattern(
         rf"{BEFORE_BOUND}(?P<a>{NUMBER})(?= (?:with|(?:ruin|harm|hurt|damag|kill|destroy|spoil|break|burst|split|crack)\w*)\b)"
     ),
-    re.compile(rf"{_HELD_AT}(?P<a>{NUMBER}){_AFTER}"),
-    re.compile(
+    NumberPattern(rf"{_HELD_AT}(?P<a>{NUMBER}){_AFTER}"),
+    NumberPattern(
         rf"(?P<a>{NUMBER})(?= (?:{_BOUND_BEHIND}|(?:is |would be )?(?:too|not enough)\b|(?:will|would) (?:bruis|crush|hurt|damag|squash|slip|break)\w*\b))"
     ),
-    re.compile(
+    NumberPattern(
         rf"^(?P<a>{NUMBER})(?=\s*(?:$|,|\(?at (?:the )?(?:most|least)\b|\(?max\b|\(?min\b))"
     ),
 )
 _HALF_RANGES = (
-    re.compile(rf"\bbetween {NUMBER}\s*(?P<u>(?:{UNIT})\b) and (?P<b>{NUMBER}){_AFTER}"),
-    re.compile(rf"{NUMBER}\s*(?P<u>(?:{UNIT})\b){_LINK}(?P<b>{_BARE}){_AFTER}"),
+    NumberPattern(rf"\bbetween {NUMBER}\s*(?P<u>(?:{UNIT})\b) and (?P<b>{NUMBER}){_AFTER}"),
+    NumberPattern(rf"{NUMBER}\s*(?P<u>(?:{UNIT})\b){_LINK}(?P<b>{_BARE}){_AFTER}"),
 )
 
 _ALTERNATIVES = (
-    re.compile(
+    NumberPattern(
         rf"(?P<b>{NUMBER})(?=(?:, {_BARE})*(?:,? (?:or|nor)|,(?= (?:maybe|perhaps|possibly)))(?: even| rather| maybe| perhaps| about| else)* {NUMBER}\s*(?P<u>(?:{UNIT})\b))"
     ),
-    re.compile(
+    NumberPattern(
         rf"{NUMBER}\s*(?P<u>(?:{UNIT})\b),? or(?: even| rather| maybe| perhaps| about| else)* (?P<b>{NUMBER}){_AFTER}"
     ),
 )
 """'0.5 or 1 N', '1 N or 0.8'."""
-_CORRECTED = re.compile(
+_CORRECTED = NumberPattern(
     rf"\b(?:no(?!\.)|wait|make (?:that|it)|{words.any_of('correction')}|better(?: still| yet)?|sorry|actually|otherwise|else)[ ,:.…!-]*(?:(?:i (?:mean|meant|said)|use|make (?:it|that)|only|just|no|wait|rather) )*(?P<a>{NUMBER}){_AFTER}"
 )
 """'0.5 N, no wait, 0.8'."""
-_ONE_ALONE = re.compile(
+_ONE_ALONE = NumberPattern(
     rf"(?P<before>{NUMBER}\s*(?P<u>(?:{UNIT})\b)(?:{_LINK}|,? (?:and|but|or) |, )(?:{_BOUND} )?)one(?=\s*(?:$|[.,;:!?)]))"
 )
 """'Between half a newton and one'."""
-_ON_A_SCALE = re.compile(
+_ON_A_SCALE = NumberPattern(
     rf"(?:{_BEFORE}|{_HELD_AT}|\b(?:hold|grip|squeeze)(?: it)? )(?P<a>{NUMBER})\s*(?:/|out of|of|on a scale of)\s*(?:\d+ to )?{_BARE}(?=\s*(?:$|[.,;:!?)]))"
 )
 """'At 7 out of 10'."""
-_BESIDE_SCALE = re.compile(
+_BESIDE_SCALE = NumberPattern(
     rf"\b{_SCALE} (?P<a>{NUMBER})(?= (?:grip|grasp|hold|squeeze|pinch|force|pressure|strength)\b)"
 )
 """'Use level 3 grip'."""
-_THAN_THAT = re.compile(
+_THAN_THAT = NumberPattern(
     rf"(?P<by>{NUMBER})\s*(?:(?P<unit>(?:{UNIT})\b)|(?P<percent>%|percent|per cent))? (?:(?P<more>{_MORE})|{_LESS}) than (?:that|this|it)\b"
 )
 """'It was 1 N; use 0.2 less than that'."""
 
 _LEFT_OVER = (
-    re.compile(
+    NumberPattern(
         rf"(?<!\bnot ){ALONE}(?P<a>\d*\.\d+)(?:{_AFTER}|(?= (?:at|on|as|in|upper|lower|hard)\b))"
     ),
-    re.compile(
+    NumberPattern(
         rf"[,;:] (?:(?:the|its|my|your|our) )?(?!{words.any_of('numbered')})\w+:? (?P<a>\d+)(?=\s*(?:$|[.,;:!?)](?![\d.])))"
     ),
 )
 """'Hold it at 1 N, redline 1.1': a fraction anywhere, a whole number after one unknown word."""
 _NUMBERED = re.compile(rf"not|through|{words.any_of('numbered')}")
-_BARE_NUMBER = re.compile(
+_BARE_NUMBER = NumberPattern(
     rf"(?:(?P<before>\w+)\s+)?(?<![\w.])(?P<a>\d+(?:\.\d+)?)(?:{_AFTER}|(?= (?:at|on|as|in|if|when|with|peak|absolute|upper|lower|hard|for (?:the|a))\b))"
 )
 """'At least 0.5 N, 1 in the worst case': beside a least, which bounds nothing from above."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 
+from policies.instructions.english.number_pattern import NumberPattern
 from policies.instructions.quantities.force import MARK
 from policies.instructions.quantities.force_units import NUMBER, UNIT, in_newtons, number
 from policies.instructions.quantities.relations import NOT
@@ -25,28 +26,34 @@ _MULTIPLE = rf"(?:(?P<x>{NUMBER})\s*(?:times|x|×)|\b(?P<w>twice|double|thrice|t
 _DENOMINATORS = {"half": 2, "third": 3, "quarter": 4, "fifth": 5, "tenth": 10}
 
 
-def read_delta(text: str) -> tuple[float | None, str]:
-    """Force to add to the task's [N], and the text without it."""
-    one = rf"(?P<a>{NUMBER})\s*(?P<u>(?:{UNIT})\b)"
+_ADDED = rf"(?P<a>{NUMBER})\s*(?P<u>(?:{UNIT})\b)"
+_DELTAS = tuple(
+    (NumberPattern(pattern), sign)
     for pattern, sign in (
         (
-            rf"{one} (?:more|harder|firmer|tighter|extra|higher|above|over)(?= (?:than |the |your )*(?:usual|normal|standard|default|last|before|that)|[.,!]*$| please)",
+            rf"{_ADDED} (?:more|harder|firmer|tighter|extra|higher|above|over)(?= (?:than |the |your )*(?:usual|normal|standard|default|last|before|that)|[.,!]*$| please)",
             1,
         ),
         (
-            rf"{one} (?:less|softer|gentler|lighter|lower|looser|below|under)(?= (?:than |the |your )*(?:usual|normal|standard|default|last|before|that)|[.,!]*$| please)",
+            rf"{_ADDED} (?:less|softer|gentler|lighter|lower|looser|below|under)(?= (?:than |the |your )*(?:usual|normal|standard|default|last|before|that)|[.,!]*$| please)",
             -1,
         ),
         (
-            rf"\b(?:add|plus|another|an extra|increase(?: \w+){{0,3}} by|raise(?: \w+){{0,3}} by|up(?: \w+){{0,3}} by) {one}",
+            rf"\b(?:add|plus|another|an extra|increase(?: \w+){{0,3}} by|raise(?: \w+){{0,3}} by|up(?: \w+){{0,3}} by) {_ADDED}",
             1,
         ),
         (
-            rf"\b(?:subtract|take off|(?:reduce|lower|decrease|drop|cut|down|ease|back off)(?: \w+){{0,3}} by) {one}",
+            rf"\b(?:subtract|take off|(?:reduce|lower|decrease|drop|cut|down|ease|back off)(?: \w+){{0,3}} by) {_ADDED}",
             -1,
         ),
-    ):
-        if match := re.search(pattern, text):
+    )
+)
+
+
+def read_delta(text: str) -> tuple[float | None, str]:
+    """Force to add to the task's [N], and the text without it."""
+    for pattern, sign in _DELTAS:
+        if match := pattern.search(text):
             rest = f"{text[: match.start()]} {MARK} {text[match.end() :]}"
             return sign * in_newtons(match["a"], match["u"]), " ".join(rest.split())
     return None, text

@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import re
 
+from policies.instructions.english.number_pattern import NumberPattern
+
 _SMALL = {
     word: value
     for value, word in enumerate(
@@ -80,7 +82,7 @@ _SHARED_SCALE = re.compile(
 )
 """'Two to three hundred': the scale counts for both."""
 
-_TWICE = re.compile(
+_TWICE = NumberPattern(
     rf"\b(?P<words>{_WORD}(?:(?:[ -]+| and | point ){_WORD})*) \((?P<digits>\d+(?:\.\d+)?)\)(?= ?[a-z])|"
     rf"(?<![\d.,])(?P<first>\d+(?:\.\d+)?) \((?P<then>{_WORD}(?:(?:[ -]+| and | point ){_WORD})*)\)(?= ?[a-z])"
 )

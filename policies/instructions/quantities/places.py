@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import re
 
+from policies.instructions.english.number_pattern import NumberPattern
 from policies.instructions.quantities.force import MARK
 from policies.instructions.quantities.force_units import NUMBER, number
 
-_LENGTH = re.compile(rf"(?P<a>{NUMBER})\s*(?P<u>mm|millimet\w+|µm|μm|um|microns?|micromet\w+)\b")
+_LENGTH = NumberPattern(rf"(?P<a>{NUMBER})\s*(?P<u>mm|millimet\w+|µm|μm|um|microns?|micromet\w+)\b")
 _PAD = r"(?:pads?|gels?|sensors?|sensing area|finger ?(?:tip|pad)s?)"
 _SIDE = r"(?:left|right|top|bottom|upper|lower|middle|cent(?:re|er)|edge|corner|tip|base|end)"
 _PLACE = re.compile(
@@ -19,7 +20,7 @@ _PLACE = re.compile(
     r"\b(?:near|by|at|close to|next to|around|below|above|under) (?:the|its) (?:stem|stalk|calyx|leaves|equator|waist|shoulders?|(?:widest|thickest) (?:point|part|place|spot)|tip|base|left|right)\b(?! of)|"
     rf"\b(?:contact|touch)\w*(?: \w+){{0,4}} (?:left|right|edge|corner|middle)\b"
 )
-AREA = re.compile(
+AREA = NumberPattern(
     rf"(?P<a>{NUMBER})\s*(?:%|percent|per cent) (?:of )?(?:the )?(?:\w+ )?(?:pad|area|gel|sensor)"
 )
 
@@ -51,7 +52,7 @@ def read_lengths(text: str) -> tuple[float | None, float | None]:
     return slip, depth
 
 
-_SLIP_BOUND = re.compile(
+_SLIP_BOUND = NumberPattern(
     rf"(?:,? ?(?:and |but )?(?:let |allow |with |tolerate )?(?:it |a |any |at most |no )?)?"
     rf"\bslip\w*(?: of)?(?: (?:is|by|must be|should be|stays?|to be|limit|bound))?,?"
     rf"(?: (?:at most|up to|under|below|less than|no more than|within|limited to|max(?:imum)?))?"

@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass, field
 
+from policies.instructions.english.number_pattern import NumberPattern
 from policies.instructions.quantities.bounds import with_plain_bounds
 from policies.instructions.quantities.elisions import bare_number, left_over, written_out
 from policies.instructions.quantities.factors import denied_factor, read_delta, read_factor
@@ -73,29 +74,41 @@ class Quantities:
 
 
 _FILLER = r"(?:um+|uh+|er+m?|hmm+|like|say|well|oh|let us say|let me say|i would say|you know|i guess|i do not know|i think|i suppose|whatever)"
-_FILLED = re.compile(
+_FILLED = NumberPattern(
     rf"\b(?P<bound>at (?:the )?(?:very |absolute )?(?:most|least)|(?:no|not) (?:more|less|harder|higher) than)"
     rf"(?: ?[,:;] ?|\.{{2,3}} ?| )(?:{_FILLER}[ ,]+)*(?={NUMBER})|"
     rf"\b(?P<bare>(?:more|less|harder|higher) than|over|above|below|under|exceed(?:ing)?|up to),? (?:{_FILLER}[ ,]+)+(?={NUMBER})"
 )
 """'At most, say, 0.8 N', 'do not use more than, um, 1 N'."""
-_INTERJECTED = re.compile(
+_INTERJECTED = NumberPattern(
     rf"({NUMBER}(?:\s*-?\s*(?:{UNIT}))?) (?:(?:no|nope|nah|wait|oh|er+|uh+|um+) )*(?:no|nope|nah) (?:(?:wait|oh|er+|uh+|um+|make (?:it|that)|just|only) )*(?={NUMBER}\s*-?\s*(?:{UNIT})\b)"
 )
 """'2 N no 1 N', as it is spoken."""
-_ELLIPSIS = re.compile(
+_ELLIPSIS = NumberPattern(
     rf"\b(?:not|no) (?:an?|1|one|a single) (millinewton|newton|gram|mn|n|gf) (more|less)(?: than)? ({NUMBER})(?!\s*(?:{UNIT})\b)"
 )
-_CHAIN = re.compile(
+_CHAIN = NumberPattern(
     rf"({NUMBER})\s*(?:{UNIT})?\s*<=?\s*(?:f|force|it|x|grip)\s*<=?\s*({NUMBER})\s*((?:{UNIT})\b)"
 )
-_PAIR = re.compile(rf"[\[(]\s*({NUMBER})\s*[,;]\s+({NUMBER})\s*[\])]\s*((?:{UNIT})\b)")
-_PRESSURE = re.compile(
+_PAIR = NumberPattern(rf"[\[(]\s*({NUMBER})\s*[,;]\s+({NUMBER})\s*[\])]\s*((?:{UNIT})\b)")
+_PRESSURE = NumberPattern(
     rf"(?:{NUMBER})\s*(?:[kmh]?pa\b|(?:kilo|mega|milli|hecto)?pascals?|m?bars?\b|psi\b|mm\s?hg|atm\b|"
     r"n ?(?:/|per) ?(?:square )?[cm]m)"
 )
-_PERCENT_OF_NOTHING = re.compile(
+_PERCENT_OF_NOTHING = NumberPattern(
     rf"\b(?:with|at|use|using|apply|to|(?:give|make|set|put|turn|run) it|go|only|just) ({NUMBER}\s*(?:%|percent|per cent))(?=\s*(?:$|[.,;!]| please| and| force\b))"
+)
+
+
+_ONE_THIRD = NumberPattern(rf"\b(?:one|1) (?=0\.\d+\s*(?:{UNIT})\b)")
+"""'One third newton', in digits."""
+_SPELLINGS = (
+    (NumberPattern(rf"({NUMBER}) ?, ?(?=(?:{UNIT})\b)"), r"\1 "),
+    (NumberPattern(r"(?<=\d)['\u00a0\u202f ](?=\d{3}\b(?! ?mm))"), ""),  # 1 400 mN
+    (NumberPattern(rf"({NUMBER})\s?-?ish\b"), r"\1"),
+    (NumberPattern(rf"({NUMBER}) ?\(((?:{UNIT}))\)"), r"\1 \2"),
+    (NumberPattern(rf"(\d)\.\s*(?=(?:{UNIT})\b)"), r"\1 "),  # '5. N'
+    (NumberPattern(rf"(?<![\d.,])0 ?[.,] ?(?=\d{{1,3}}\s*-?\s*(?:{UNIT})\b)"), "0."),  # '0. 8 N'
 )
 
 
@@ -109,16 +122,12 @@ def _plain_bound(match: re.Match[str]) -> str:
 def read_quantities(text: str) -> Quantities:
     """Read the numbers of a plain text (``policies.instructions.english.text.plain``)."""
     text = _FILLED.sub(_plain_bound, in_digits(text))
-    text = re.sub(rf"\b(?:one|1) (?=0\.\d+\s*(?:{UNIT})\b)", "", text)  # 'one third newton'
+    text = _ONE_THIRD.sub("", text)
     text = _INTERJECTED.sub(r"\1, no wait, ", text)
     text = _ELLIPSIS.sub(r"no \2 than \3 \1", text)
     text, masses = without_masses(text)
-    text = re.sub(rf"({NUMBER}) ?, ?(?=(?:{UNIT})\b)", r"\1 ", text)
-    text = re.sub(r"(?<=\d)['\u00a0\u202f ](?=\d{3}\b(?! ?mm))", "", text)  # 1 400 mN
-    text = re.sub(rf"({NUMBER})\s?-?ish\b", r"\1", text)
-    text = re.sub(rf"({NUMBER}) ?\(((?:{UNIT}))\)", r"\1 \2", text)
-    text = re.sub(rf"(\d)\.\s*(?=(?:{UNIT})\b)", r"\1 ", text)  # '5. N'
-    text = re.sub(rf"(?<![\d.,])0 ?[.,] ?(?=\d{{1,3}}\s*-?\s*(?:{UNIT})\b)", "0.", text)  # '0. 8 N'
+    for pattern, plainly in _SPELLINGS:
+        text = pattern.sub(plainly, text)
     left_open = open_force(text)
     text, unsure = text.replace(WORKED_OUT, "→"), ""
     if re.search(r"\d", text):

@@ -9,13 +9,14 @@ import re
 from collections.abc import Iterator
 
 from policies.instructions.english import words
+from policies.instructions.english.number_pattern import NumberPattern
 from policies.instructions.quantities.force_units import ALONE, LOOSE, NUMBER, UNIT, in_newtons
 from policies.instructions.quantities.tolerances import TOLERANCE, band_of
 
 _SIGNED = rf"(?:(?<![\w.])(?:-(?=[\d.])|(?:minus|negative) ))?(?:{NUMBER}|infinite|infinity|unlimited|inf|nan)"
 _LINK = r"\s*(?:-|–|—|\.\.\.?|…|,|\bup to\b|\bto\b|\bthrough\b|\b(?:un)?till?\b|\band\b)\s*"
 
-_RANGE = re.compile(
+_RANGE = NumberPattern(
     rf"(?P<pre>\b(?:betw\w*|from|within|inside|range(?: of)?|window(?: of)?|in)\s*\[?\s*|\[\s*)?"
     rf"(?P<a>{NUMBER})\s*(?P<ua>(?:{UNIT}|{LOOSE})\b)?(?P<link>{_LINK})"
     rf"(?P<b>{NUMBER.removeprefix(ALONE)})\s*\]?\s*-?(?P<ub>(?:{UNIT}|{LOOSE})\b)"

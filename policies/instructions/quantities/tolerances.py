@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 
+from policies.instructions.english.number_pattern import NumberPattern
 from policies.instructions.quantities.force_units import ALONE, NUMBER, UNIT, in_newtons, number
 
 _BARE = NUMBER.removeprefix(ALONE)
@@ -20,7 +21,7 @@ _SYMMETRIC = rf"(?:±\s*(?P<t>{_BARE})\s*(?P<tu>{_PART})?|(?P<uneven>\(\+{_BARE}
 TOLERANCE = rf"(?:\s*,?\s*{_SYMMETRIC}{_OTHER})?"
 """Behind the unit of a force: groups t, tu and uneven."""
 
-_PLAIN: tuple[tuple[str, str], ...] = (
+_PLAIN = tuple((NumberPattern(pattern), plainly) for pattern, plainly in (
     (rf"(?:\+\s*(?:/|or)?\s*-|-\s*/?\s*\+|∓|\bplus[ /-]*(?:or |and )?[ /-]*minus|\bgive or take)\s*(?={_BARE})", " ± "),
     (rf"\(\s*(±\s*{_BARE}\s*{_PART}?)\s*\)", r" \1"),
     (rf"({_ONE}(?: of [a-z]+| force| grip)*)\s*,?\s*\(?(?:to )?within (?={_BARE}\s*{_PART})", r"\1 ± "),
@@ -33,14 +34,14 @@ _PLAIN: tuple[tuple[str, str], ...] = (
     (rf"({_ONE})\s*\(?-\s*({_BARE})\s*[/,]\s*\+\s*({_BARE})\s*\)?(?!\s*{_PART})(?![\d.,])", r"\1 (+\3/-\2)"),
     (rf"\(?\+\s*({_BARE})\s*({_PART})?\s*[/,]?\s*-\s*({_BARE})\s*({_PART})\s*\)?", r"(+\1 \2/-\3 \4)"),
     (rf"\(?-\s*({_BARE})\s*({_PART})?\s*[/,]?\s*\+\s*({_BARE})\s*({_PART})\s*\)?", r"(+\3 \4/-\1 \2)"),
-)  # fmt: skip
-_BEHIND = re.compile(
+))  # fmt: skip
+_BEHIND = NumberPattern(
     rf"(?P<one>{_ONE})(?P<between>[^.±\d]{{1,40}}?)(?P<tolerance>±\s*{_BARE}(?:\s*{_PART})?){_OTHER}"
 )
-_AHEAD = re.compile(
+_AHEAD = NumberPattern(
     rf"^(?P<between>[^\d]*?)(?P<tolerance>±\s*{_BARE}\s*{_PART}){_OTHER}(?P<more>[^\d]*)(?P<one>{_ONE})"
 )
-_LONE = re.compile(rf"^[^\d]*?±\s*(?P<part>{_BARE}\s*{_PART})")
+_LONE = NumberPattern(rf"^[^\d]*?±\s*(?P<part>{_BARE}\s*{_PART})")
 
 _PARTS = {"half": 50, "third": 33, "quarter": 25, "fifth": 20, "tenth": 10}
 _PART_EITHER_WAY = re.compile(
@@ -57,7 +58,7 @@ def with_plain_tolerances(text: str) -> str:
     """Write each tolerance of a plain text, its numbers in digits, directly behind its force."""
     text = _PART_EITHER_WAY.sub(_in_percent, text)
     for pattern, plainly in _PLAIN:
-        text = re.sub(pattern, plainly, text)
+        text = pattern.sub(plainly, text)
     text = _BEHIND.sub(r"\g<one> \g<tolerance>\g<between>", text)
     text = _AHEAD.sub(r"\g<between>\g<more>\g<one> \g<tolerance>", text)
     return " ".join(text.split())

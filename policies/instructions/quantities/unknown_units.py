@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from importlib import resources
 
+from policies.instructions.english.number_pattern import NumberPattern
 from policies.instructions.quantities.elisions import BEFORE_BOUND, BEFORE_VALUE
 from policies.instructions.quantities.force_units import ALONE, LOOSE, NUMBER, UNIT
 from policies.instructions.quantities.masses import OBJECT
@@ -25,30 +26,30 @@ _OTHER = re.compile(
 """Other units and things that are counted."""
 
 _AFTER = rf"(?P<number>{NUMBER})\s*-?\s*(?!(?:{UNIT}|{LOOSE})\b)(?P<unit>[a-z°µμ]+)\b(?!')"
-_BOUNDED = re.compile(BEFORE_BOUND + _AFTER)
-_VALUED = re.compile(
+_BOUNDED = NumberPattern(BEFORE_BOUND + _AFTER)
+_VALUED = NumberPattern(
     rf"(?:{BEFORE_VALUE}|\b(?:hold|grip|squeeze|press|grasp)(?: it)? (?:at|to) ){_AFTER}"
 )
-_ALONE = re.compile(rf"^{_AFTER}(?=[ .!]*$)")
-_NONE = re.compile(
+_ALONE = NumberPattern(rf"^{_AFTER}(?=[ .!]*$)")
+_NONE = NumberPattern(
     rf"(?:^|{BEFORE_BOUND}|{BEFORE_VALUE}|\b(?:hold|grip|squeeze|press|grasp|pinch|clamp|push)(?: it| this| the \w+)?(?: (?:at|to))? |\b(?:between|from(?! [\d.]+ ?m\b)) )(?:{NUMBER} ?(?:-|–|to|and) ?)?(?P<number>{NUMBER})\s*-?\s*"
     r"(?P<unit>m/s(?:ec)?[²2]?|m|amps?|stones?|bits?|bananas?|apples|[kmg]?hz|hertz|rpm|°?[cf]|x|notch(?:es)?|ticks?|turns?)(?=\s*(?:$|[.,;:!?)]|(?:of (?:grip |holding )?(?:force|grip|pressure|squeeze)|force|please|on (?:the|it|this|that)|onto|to (?:the|it|this|that)|and|but|thanks)\b))"
 )
 """Units that count or measure something else elsewhere ('0.2 m above'), where a force would stand."""
-_DERIVED = re.compile(
+_DERIVED = NumberPattern(
     rf"(?P<number>{NUMBER})\s*(?P<unit>(?:{UNIT})\s?(?:[·⋅*-]\s?|\s)?(?:m|cm|mm|met(?:er|re)s?)\b|[cmk]?nm\b|"
     rf"(?:{UNIT})\s?(?:/|per )\s?(?:s|sec(?:ond)?|[cm]?m|met(?:er|re))\b)"
 )
 """Torques, stiffnesses, rates: a force is only a part of them."""
 
-_FORMULA = re.compile(
+_FORMULA = NumberPattern(
     rf"(?:\b[a-z]+\(\s*{NUMBER}\s*\)|\b{NUMBER} to the (?:power (?:of )?)?{NUMBER}|\b{NUMBER}\)?\s*(?:(?:\^|\*\*)\s*\(?[-+]?|/\s*\(?){NUMBER}\)?|\b{NUMBER}\s*[*×x·]\s?10 ?- ?\d+)\s*(?:{UNIT})\b|"
     rf"(?:\(\s*{NUMBER}\s*[+*/]\s*{NUMBER}\s*\)|(?:√\s*\(?|{NUMBER}\s*[*×x])(?=\d){NUMBER}\)?)\s*(?:{UNIT})\b|"
     rf"{NUMBER}\s*(?:{UNIT})\b\s*(?:\(?\s*(?:\^|\*\*|\*|/|×|·|÷|∕|⁄|x(?= ?\d)|times\b|divided by\b)\s*\d[\d.,]*|: ?\d+(?:\.\d+)?(?=\s*(?:$|[;!]|\.(?!\d)))|quartered\b)"
 )
 """Powers, roots and quotients are not worked out."""
 _DIGITS = r"(?<![\w.,])\d+(?:[.,]\d+){2,}"
-_MALFORMED = re.compile(
+_MALFORMED = NumberPattern(
     rf"(?P<a>{_DIGITS})\s*(?:{UNIT})\b|(?:{BEFORE_BOUND}|{BEFORE_VALUE})(?P<b>{_DIGITS})(?![.,]?\w)"
 )
 _NO_NUMBER = re.compile(
@@ -58,7 +59,7 @@ _NO_NUMBER = re.compile(
 """'0:3 N', '0.8(1) N', '1 over 3 N', 'iv n', 'o,5 N', 'l.2 N'; '1,500 N', which may be 1.5 or 1500."""
 
 
-_SIGNED_CHANGE = re.compile(
+_SIGNED_CHANGE = NumberPattern(
     rf"(?:^|(?<=[\s,;:(]))[-−–] ?{NUMBER.removeprefix(ALONE)} ?(?:%|percent|per cent) "
     r"(?:more|less|harder|softer|firmer|gentler|lighter|stronger|weaker|tighter|looser|higher|lower)\b"
 )
@@ -91,11 +92,11 @@ _DENIED_TWICE = re.compile(
     r"\bnot (?:want|wish|like|need|ask|expect)\b[^.;:,#\d]{0,30}?\b(?:not|never|avoid) (?:to )?(?:exceed|go (?:over|above|beyond|past)|pass|top|surpass|cross|(?:use|apply) (?:more|less) than|(?:fall|drop|go) (?:below|under))"
 )
 
-_AND_A_BIT = re.compile(
+_AND_A_BIT = NumberPattern(
     rf"{NUMBER}\s*-?\s*(?:{UNIT})[ ,-]+(?:and|plus|with)[ -](?:(?:maybe|perhaps|just|then|a|an|some|wee|tiny|little|small)[ -])*"
     r"(?:bit|little|touch|tad|hair|smidge\w*|some|something|change|extra|more)(?: (?:more|extra|on top|over|besides))?(?=\s*(?:$|[.,;:!?)]|please|thanks|thank|for|on))"
 )
-_NAMING = re.compile(
+_NAMING = NumberPattern(
     rf"\b(?:the|that|this|those|these|my|our|your|an?|another) (?:[a-z]+ )?{NUMBER}[ -]*(?:{UNIT}) "
     rf"(?:(?!(?:on|onto|for|to|of|and|or|in|at|with|by|from)\b)[a-z]+ )?{OBJECT}"
     r"(?! (?:grip|grasp|hold|squeeze|force|pinch|pressure|setting|limit|recipe|program|mode|profile|preset)\w*)"
@@ -106,7 +107,7 @@ _CUT_OFF = re.compile(
     rf"|\bbetween(?: about| around)? {NUMBER}\s*-?\s*(?:{UNIT})\s*(?:$|[.;!](?!\d))"
 )
 """'Hold it at 1 to', 'between 1 N': the end of a range is missing."""
-_ASKED_TWICE = re.compile(
+_ASKED_TWICE = NumberPattern(
     rf"{NUMBER}\s*-?\s*(?:(?:{UNIT})\s*)?\?+\s*(?:(?:or|maybe|perhaps|no) )*{NUMBER}\s*-?\s*(?:{UNIT})\s*\?"
 )
 _NO_DIGITS = re.compile(
@@ -152,6 +153,13 @@ def open_force(text: str) -> str:
     return f"{match[0]!r} leaves the force open; say it as one number, as in '1.5 N'"
 
 
+_TORN = NumberPattern(rf"(?<![\w.,])(?:[1-9] ?(?:\. | [.,])|(?<=with )[1-9], )\d+\s*(?:{UNIT})\b")
+"""'1 .2 N'."""
+_ENDLESS = NumberPattern(rf"\d(?:[.,]\d+)?e[+-]?\d{{5,}}\s*(?:{UNIT})\b")
+"""'1e99999 N'."""
+_FORCE = NumberPattern(rf"{NUMBER}\s*-?\s*(?:{UNIT})\b")
+
+
 def unknown_force(text: str) -> str:
     """Why a number of a plain text is no force although it stands for one; '' for none.
 
@@ -162,13 +170,11 @@ def unknown_force(text: str) -> str:
         digits = malformed["a"] or malformed["b"]
         if not re.fullmatch(NUMBER, digits):
             return f"{digits!r} is no number; say it as '1.2 N'"
-    if match := re.search(
-        rf"(?<![\w.,])(?:[1-9] ?(?:\. | [.,])|(?<=with )[1-9], )\d+\s*(?:{UNIT})\b", text
-    ):
+    if match := _TORN.search(text):
         return f"{match[0]!r} is no number; say it as '1.2 N'"
     if match := _NO_NUMBER.search(text):
         return f"{match[0]!r} is no number; say it as '1.2 N'"
-    if match := re.search(rf"\d(?:[.,]\d+)?e[+-]?\d{{5,}}\s*(?:{UNIT})\b", text):
+    if match := _ENDLESS.search(text):
         return f"{match[0]!r} is no force; say it as '1.2 N'"
     if match := _OF_WEIGHT.search(text):
         return f"{match[0]!r} is a multiple of a weight; say the force in newtons, as in '1.5 N'"
@@ -189,7 +195,7 @@ def unknown_force(text: str) -> str:
 
 
 def _has_force(text: str) -> bool:
-    return re.search(rf"{NUMBER}\s*-?\s*(?:{UNIT})\b", text) is not None
+    return _FORCE.search(text) is not None
 
 
 def _reason(match: re.Match[str]) -> str:
