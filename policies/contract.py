@@ -13,6 +13,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
+from cltp.texts.captions import with_article
 from policies.force_terms import (
     AROUND,
     LEANS,
@@ -27,7 +28,7 @@ from policies.force_terms import (
     toleranced_band,
     words_of,
 )
-from policies.instructions.other_forces import is_another
+from policies.instructions.other_forces import is_another, kind_of
 from policies.instructions.quantities import Force, Quantities
 from policies.instructions.reader import Request, read_request
 from primitives.contract import (
@@ -170,6 +171,11 @@ def _take_words(draft: _Draft, request: Request, task: TaskTerms, *, is_own: boo
             f"{request.need.words!r} says what something else takes than the {held}; say 'use ...' "
             "for this grip"
         )
+    if not is_own and _is_of_another_task(request.thing, task):
+        draft.assumed.append(
+            f"the {request.thing} is the object of another task (--task); the forces here are "
+            f"those of {with_article(task.object.replace('_', ' '))}"
+        )
     is_named = any(force.kind == "value" for force in numbers.forces)
     if is_named and numbers.factor is not None:
         raise RefusedError(
@@ -265,6 +271,13 @@ def _note_tolerances(draft: _Draft, forces: Sequence[Force], rest: str) -> None:
 def _key(instruction: str) -> str:
     """An instruction without what changes no meaning: case, spaces and the final full stop."""
     return " ".join(instruction.casefold().split()).rstrip(" .!")
+
+
+def _is_of_another_task(thing: str, task: TaskTerms) -> bool:
+    """Whether a thing is not the task's object, and another task's own instruction names it."""
+    if not thing or not is_another(kind_of(thing), task.object):
+        return False
+    return any(kind_of(thing) in instruction.casefold() for instruction in task.others)
 
 
 def _others(task: TaskTerms) -> dict[str, ForceTerms]:

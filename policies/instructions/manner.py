@@ -98,6 +98,13 @@ _NOT_YOU = re.compile(r"\b(can|could|will|would|should) not (?=you|we)\b")
 _RATHER = re.compile(
     r"\b(?:rather|better|sooner|prefer\w*)\b(?: \w+)*? (?:too )?(?!little\b|much\b)(\w+) than (?:too |be |being )?(?!usual|normal|before|last|that|this|it\b|standard|the\b|you)\w+"
 )
+_SETTING = re.compile(r"\b(force|grip|strength|pressure|power|squeeze) ?[:=] ?(?=[a-z])")
+"""'Strength: low'."""
+_LESSER_EVIL = re.compile(
+    r"\b(?:rather|better|sooner|prefer\w*)\b(?: \w+){0,4}? "
+    r"(?:bruised|squashed|squished|damaged|dented|marked|hurt|dropped|lost|fallen|slipped) than "
+)
+"""'Better bruised than dropped' fears the drop."""
 _DENIED_AFTER = re.compile(
     rf"^[^,;]{{0,40}}?\b(?:{FORBIDDEN_AFTER}|(?:is|are) (?:not|no longer|wrong|out\b|useless|forbidden|unnecessary|overrated|the wrong|a mistake|for)|"
     r"(?:is|are) (?:no (?:use|good|help)|not)|will not (?:do|cut|work|help|suffice|be)|does not (?:work|help|cut|do)|never (?:works|helps)|(?:is|are) never)"
@@ -201,8 +208,8 @@ def _cues(sentence: str, asks: bool) -> Iterator[Cue]:
     sentence = _NOT_YOU.sub(r"\1 ", without_neutral(sentence))
     sentence = _JUST_ENOUGH.sub(r"just enough\2", _MILDLY.sub(r"\1", sentence))
     sentence = _NEVER_TOO.sub(r"\1 ", sentence)
-    sentence = _RATHER.sub(r" \1 ", sentence)
-    sentence = _too_for(sentence)
+    sentence = _RATHER.sub(r" \1 ", _LESSER_EVIL.sub(" not ", sentence))
+    sentence = _too_for(_SETTING.sub(r"\1 ", sentence))
     sentence = _TOO_FORBIDDEN.sub("", _TOO.sub(r"\1\2", sentence))
     for part in CLAUSE.split(sentence):
         for clause in _BREAK.split(part):

@@ -110,9 +110,9 @@ def without_other_forces(text: str) -> str:
     for match in reversed(list(_OF_OBJECT.finditer(text))):
         rest = f"{text[: match.start()]} {text[match.end() :]}"
         named = (each[0] for each in re.finditer(OBJECT, rest))
-        others = {_kind(name) for name in named if not _ANY.fullmatch(name)}
+        others = {kind_of(name) for name in named if not _ANY.fullmatch(name)}
         is_named = not _ANY.fullmatch(match["object"])
-        is_other = is_named and others and _kind(match["object"]) not in others
+        is_other = is_named and others and kind_of(match["object"]) not in others
         if re.search(ONE_FORCE, rest) and not (_HELD.search(rest) or _GIVEN.search(rest)):
             continue  # 'the tomato gets 2 N, the berry 1 N' does not say which one is held
         if is_other or _THAT_TOOK.match(match[0]):
@@ -140,13 +140,13 @@ def need_of(text: str) -> SaidNeed | None:
     """
     for match in _OF_OBJECT.finditer(text):
         if not _ANY.fullmatch(match["object"]):
-            return SaidNeed(_kind(match["object"]), match[0])
+            return SaidNeed(kind_of(match["object"]), match[0])
     return None
 
 
 def is_another(name: str, task_object: str) -> bool:
     """Whether the kind of an object is not that of a task's object ('cherry_tomato')."""
-    return "fruit" not in (name, task_object) and name != _kind(task_object.split("_")[-1])
+    return "fruit" not in (name, task_object) and name != kind_of(task_object.split("_")[-1])
 
 
 def _without_bounds_of_others(text: str) -> str:
@@ -156,18 +156,18 @@ def _without_bounds_of_others(text: str) -> str:
     for pattern in _BOUND_OF:
         for match in reversed(list(pattern.finditer(text))):
             rest = f"{text[: match.start()]}. {text[match.end() :]}"
-            held = {_kind(each["object"]) for each in _HELD.finditer(rest)}
+            held = {kind_of(each["object"]) for each in _HELD.finditer(rest)}
             clause = _CLAUSE.split(text[: match.start()])[-1] + match[0]
             if _HELD.search(clause):
                 continue  # 'pick the berry out of the box with at most 1 N'
             is_other = text[: match.start("object")].endswith("other ")
-            named = "other" if is_other else _kind(match["object"])
+            named = "other" if is_other else kind_of(match["object"])
             is_told_apart = is_other or any(not _ANY.fullmatch(name) for name in held)
             if held and is_told_apart and named not in held:
                 text = f"{text[: match.start()]}{MARK}{text[match.end() :]}"
     return text
 
 
-def _kind(name: str) -> str:
+def kind_of(name: str) -> str:
     """A fruit by one name: 'straw berries' and 'berry' are strawberries here."""
     return "berry" if "berr" in name else re.sub(r"(?<=o)es$|s$", "", name)

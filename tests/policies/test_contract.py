@@ -417,3 +417,20 @@ def test_a_bound_of_the_slip_asks_for_no_firmer_grip(instruction):
 
 def test_a_comparison_does_not_name_what_is_held():
     assert read("Hold it like an egg.").summary == "hold the strawberry"
+
+
+@pytest.mark.parametrize(
+    ("instruction", "is_other"),
+    [
+        ("pick the egg", True),
+        ("hold the egg with 0.7 N", True),
+        ("take the berry gently", False),
+        ("hold it like an egg", False),
+        ("pick the fruit", False),
+    ],
+)
+def test_the_object_of_another_task_is_noted(instruction: str, is_other: bool):
+    task = replace(TASK, others={"Pick the egg without cracking it.": PEG})
+    notes = read_contract(instruction, task, {}).assumed
+    assert any("the egg is the object of another task" in note for note in notes) == is_other
+    assert not any("another task" in note for note in read(instruction).assumed)

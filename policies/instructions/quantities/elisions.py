@@ -63,6 +63,8 @@ _HALVES = (
     re.compile(rf"(?<=(?:than|nder|over|elow|bove|most|east) )(?:an? )?half{_AFTER}"),
 )
 _HELD_AT = r"\b(?:(?:hold|grip|squeeze|press|grasp|clamp|pinch)(?: it| this| that| the \w+)? (?:at|to)|(?:set|put|keep|have|leave|run|try|make|dial|fix|peg|stick|whack|bring|turn|adjust|tune|ramp|crank|bump|give)(?: it| this| that| the \w+)?(?: up| down| in)? (?:at|to)|(?:go|going) (?:with|for|at|to)) "
+_HELD = r"\b(?:hold|grip|squeeze|press|grasp|clamp|pinch|gentl[ey]|soft(?:ly)?|light(?:ly)?|firm(?:ly)?|hard)(?: (?:it|this|that))? "
+"""What asks to hold, directly before a number: 'grip it 0.8'."""
 _QUANTITY = NumberPattern(
     rf"{NUMBER}\s*-?\s*(?:(?P<force>(?:{UNIT})\b)|mm\b|cm\b|millimet\w+|[µμu]m\b|micro\w+|%|percent\b|per cent\b)"
 )
@@ -75,12 +77,13 @@ _BOUND_BEHIND = (
 """What bounds a force and stands behind its number."""
 _BARES = (
     NumberPattern(rf"\bbetween (?P<a>{NUMBER})(?: and |{_LINK})(?P<b>{_BARE}){_AFTER}"),
-    NumberPattern(rf"(?:{_BEFORE}|\bfrom |^)(?P<a>{NUMBER}){_LINK}(?P<b>{_BARE}){_AFTER}"),
+    NumberPattern(rf"(?:{_BEFORE}|{_HELD}|\bfrom |^)(?P<a>{NUMBER}){_LINK}(?P<b>{_BARE}){_AFTER}"),
     NumberPattern(rf"{_BEFORE}(?P<a>{NUMBER}){_AFTER}"),
     NumberPattern(
         rf"{BEFORE_BOUND}(?P<a>{NUMBER})(?= (?:with|(?:ruin|harm|hurt|damag|kill|destroy|spoil|break|burst|split|crack)\w*)\b)"
     ),
     NumberPattern(rf"{_HELD_AT}(?P<a>{NUMBER}){_AFTER}"),
+    NumberPattern(rf"{_HELD}(?P<a>{NUMBER}){_AFTER}"),
     NumberPattern(
         rf"(?P<a>{NUMBER})(?= (?:{_BOUND_BEHIND}|(?:is |would be )?(?:too|not enough)\b|(?:will|would) (?:bruis|crush|hurt|damag|squash|slip|break)\w*\b))"
     ),

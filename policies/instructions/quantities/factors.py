@@ -23,6 +23,7 @@ _GO_UP = r"(?:increase|raise|up|boost|turn up|crank up|bump|dial up|strengthen|t
 _GO_DOWN = r"(?:reduce|lower|decrease|cut|drop|turn down|dial down|ease|back off|loosen|scale back|bring down|lessen|down)"
 _FRACTION = r"(?:(?P<n>an?|one|two|three|\d) (?P<d>half|third|quarter|fifth|tenth)s?|(?P<h>half))"
 _MULTIPLE = rf"(?:(?P<x>{NUMBER})\s*(?:times|x|×)|\b(?P<w>twice|double|thrice|triple)) "
+_GRIP = r"(?:force|grip|strength|pressure|power|squeeze)\b"
 _DENOMINATORS = {"half": 2, "third": 3, "quarter": 4, "fifth": 5, "tenth": 10}
 
 
@@ -68,9 +69,9 @@ def read_factor(text: str) -> tuple[float | None, str, str]:
         (rf"(?P<x>{NUMBER})\s*(?:times|x|×) (?:as {_HOW}|{_USUAL})(?: as)?", lambda m: number(m["x"])),
         (rf"{_MULTIPLE}{_UP}\b", _multiple),
         (rf"{_MULTIPLE}{_DOWN}\b", lambda m: 1 / _multiple(m) if _multiple(m) else 0.0),
-        (rf"(?:twice|double|2 times|two times) (?:as {_HOW}|{_USUAL})|\bdouble (?:up )?(?:the|your)", lambda m: 2.0),
+        (rf"(?:twice|double|2 times|two times) (?:as {_HOW}|{_USUAL})|\bdouble (?:up )?(?:the|your)|\bdouble {_GRIP}", lambda m: 2.0),
         (rf"(?:three times|triple|thrice) (?:as {_HOW}|{_USUAL})|\btriple (?:the|your)", lambda m: 3.0),
-        (rf"(?:half|0\.5) as {_HOW}|\bhalf {_USUAL}|\bhalf (?:of )?{_USUAL}|\b(?:in|by) half\b|\bhalve\b|\bhalf (?:the )?(?:force|grip|strength|pressure|power|squeeze)", lambda m: 0.5),
+        (rf"(?:half|0\.5) as {_HOW}|\bhalf {_USUAL}|\bhalf (?:of )?{_USUAL}|\b(?:in|by) half\b|\bhalve\b|\bhalf (?:the )?{_GRIP}|\b{_GRIP}(?: (?:at|of|to|is))?:? half\b", lambda m: 0.5),
         (rf"(?:another|an extra|extra|additional|add|plus) {NUMBER}\s*(?:%|percent|per cent)|{NUMBER}\s*(?:%|percent|per cent) (?:on top|extra)", lambda m: 1 + _percent(m) / 100),
         (r"\b(?:to (?:about |around |roughly )?|but (?:only |just )?)half\b", lambda m: 0.5),
         (rf"{percent} {_UP}", lambda m: 1 + number(m["p"]) / 100),
@@ -83,6 +84,7 @@ def read_factor(text: str) -> tuple[float | None, str, str]:
         (rf"\b(?:{_GO_UP}|{_UP})\b[^.;#]{{0,40}}?by (?:about |around )?{_FRACTION}", lambda m: 1 + _part(m)),
         (rf"\b(?:{_GO_DOWN}|{_DOWN})\b[^.;#]{{0,40}}?by (?:about |around )?{_FRACTION}", lambda m: 1 - _part(m)),
         (rf"{_FRACTION} (?:of )?(?:{_USUAL}|usual|normal|standard|default)", lambda m: _part(m)),
+        (rf"\b(?P<d>third|quarter|fifth|tenth) (?:of )?(?:(?:the|your|its) )?(?:(?:usual|normal|full) )?{_GRIP}", lambda m: 1 / _DENOMINATORS[m["d"]]),
     ):  # fmt: skip
         if match := re.search(pattern, text):
             factor = value(match)

@@ -145,8 +145,22 @@ def undecided_force(text: str, *, is_bounded: bool) -> str:
     )
 
 
+_AMOUNT = rf"{NUMBER}\s*-?\s*(?:{UNIT})"
+_EACH = r"(?:(?:each|every|per|a) (?:\w+ )?(?:second|sec|s|ms|moment|step|time|try|attempt|move|round)\b|at a time\b|step by step\b)"
+_STEPS = NumberPattern(
+    rf"\b(?:steps|increments|stages|stairs) of {_AMOUNT}\b|"
+    rf"\b(?:add|plus|increas\w*|rais\w*|ramp\w*|grow\w*|go(?:ing)? (?:up|down)|step\w* (?:up|down)|lower\w*|reduc\w*|decreas\w*|eas(?:e|ing)|tighten\w*)\b[^.;\d]{{0,30}}{_AMOUNT}\b[^.;\d]{{0,12}} {_EACH}|"
+    rf"{_AMOUNT} (?:more|less|extra|harder|softer|firmer|higher|lower) {_EACH}"
+)
+"""'Add 0.1 N every second', 'in steps of 0.1 N'."""
+
+
 def open_force(text: str) -> str:
-    """Why a text leaves a force to a margin or factor of safety; '' for none."""
+    """Why a text leaves a force to a margin or factor of safety, or to time; '' for none."""
+    if match := _STEPS.search(text):
+        return (
+            f"{match[0]!r} changes the force in steps; say a least and a most, as in '0.5 to 1 N'"
+        )
     match = _SAFETY.search(text)
     if match is None or not _has_force(text):
         return ""
