@@ -110,7 +110,7 @@ _DENIED_AFTER = re.compile(
     r"(?:is|are) (?:no (?:use|good|help)|not)|will not (?:do|cut|work|help|suffice|be)|does not (?:work|help|cut|do)|never (?:works|helps)|(?:is|are) never)"
 )
 _COMPLAINT = re.compile(
-    r"\b(?:grip|hold|grasp|squeeze|touch|force|pressure|you|fingers)(?: \w+){0,1} (?:is|was|feels|seems|are|were|felt|looks)(?: (?!to|not)\w+){0,2} $"
+    r"\b(?:grip|hold|grasp|squeeze|touch|force|pressure|you|fingers)(?: (?!what|which|that\b)\w+){0,1} (?:is|was|feels|seems|are|were|felt|looks)(?: (?!to|not)\w+){0,2} $"
 )
 _BREAK = re.compile(
     rf"\b(?:and|so) (?=(?:please |just |then |only |really )?(?:{words.any_of('hold')}|be|use|go|ease|make|do|try|give|that|get|stay)\b)"

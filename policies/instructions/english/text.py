@@ -61,6 +61,9 @@ _CONTRACTIONS = (
     (r"\bfor (?:the )?avoidance of (?:all |any )?doubt\b[,:]? ?", ""),
     (r"\bhow (?:hard|tough|difficult) (?:can|could) (?:it|this|that) (?:possibly )?be\b", "well"),
     (r"\bsub[- ]?newtons?\b", "below 1 newton"),
+    (r"\b(?:do not|never) (?:forget|neglect|fail|omit) to\b", "please"),
+    (r"\b((?:hand|pass|turn|bring|carry|move|flip|roll|give|take|get|tip|lift|put|set|send|slide|swing)(?:e?d|ing)? (?:it|this|that|them|(?:the|my|our) (?:\w+ )?\w+)) over(?= (?:with|at|using|below|under|between|and|to|here|there|by|in|max|min|not|no|never|without|but|as|very|\w+ly)\b)", r"\1"),
+    (r"\bon top of (?=(?:the|my|our|an?|some|all|those|these) (?!(?:usual|normal|standard|default|task|last|previous)\b))", "onto "),
 )  # fmt: skip
 
 _TYPED = (
