@@ -12,6 +12,9 @@ _MARKS = "´‘’ʼ′‵＇ʹ`"
 _STEMS = "do|does|did|is|are|was|were|have|has|had|must|should|could|would|need|might"
 """Verbs that 'n't' denies."""
 
+_WANTED = r"(?:^|(?<=[.!;,:] ))what (?:(?:i|we|you|it|this|that|they|the (?:\w+ )?\w+) (?:(?:really|just|only) )?(?:wants?|needs?|would like|requires?|means?|meant|prefers?|asks? for|asked for|am after|must have|should have)|matters|counts)(?: (?:most|here|now|today|from you))* (?:is|was),?:?"
+"""'What I want is'."""
+
 _CONTRACTIONS = (
     (rf"\b({_STEMS}|ca|wo|sha|ai) ?n ?['\";“”] ?t\b", r"\1n't"),
     (rf"\b({_STEMS}|ca|wo|sha|ai)(?: nt|n t)\b", r"\1n't"),
@@ -62,6 +65,9 @@ _CONTRACTIONS = (
     (r"\bhow (?:hard|tough|difficult) (?:can|could) (?:it|this|that) (?:possibly )?be\b", "well"),
     (r"\bsub[- ]?newtons?\b", "below 1 newton"),
     (r"\b(?:do not|never) (?:forget|neglect|fail|omit) to\b", "please"),
+    (rf"{_WANTED} (?:for you to|that you|to have you) (?!.*\?)", "please "),
+    (rf"{_WANTED} (?:that|for) (?!.*\?)", "make sure that "),
+    (rf"{_WANTED} (?=(?:an?|the|some|at|about|around|roughly|exactly|no|not|between|something|\.?\d)\b)(?!.*\?)", "use "),
     (r"\b((?:hand|pass|turn|bring|carry|move|flip|roll|give|take|get|tip|lift|put|set|send|slide|swing)(?:e?d|ing)? (?:it|this|that|them|(?:the|my|our) (?:\w+ )?\w+)) over(?= (?:with|at|using|below|under|between|and|to|here|there|by|in|max|min|not|no|never|without|but|as|very|\w+ly)\b)", r"\1"),
     (r"\bon top of (?=(?:the|my|our|an?|some|all|those|these) (?!(?:usual|normal|standard|default|task|last|previous)\b))", "onto "),
 )  # fmt: skip
