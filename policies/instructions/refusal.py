@@ -26,7 +26,11 @@ _DESTROY_VERB = re.compile(rf"\b{words.any_of('destroy')}(?:n?ing|t?ing|p?ing)?\
 _A_BIT = re.compile(
     r"squish (?:it|this|that|the \w+) (?:(?:just|only|like|maybe|ever so) )*(?:(?:an? )?(?:\w+ )?(?:bit|little|touch|tad|smidge\w*)\b(?! (?:flat|more|harder))|gently|softly|lightly|slightly|carefully)"
 )
-_DESTROY_IT = r"(?:crush|squash|smash|mash|burst|bruise|destroy|flatten|pulp|mangle|wreck|ruin|split|puncture|pierce|break|crack) (?:it|this|that|them|the (?:\w+ )?\w+)"
+_THAT = r"(?:it|this|that|them|the (?:\w+ )?\w+)"
+_DESTROY_IT = (
+    r"(?:(?:crush|squash|smash|mash|burst|bruise|destroy|flatten|pulp|mangle|wreck|ruin|split|puncture|pierce|break|crack|damage|hurt|harm) "
+    rf"{_THAT}|squish {_THAT} flat|turn {_THAT} (?:in)?to (?:jam|mush|pulp|juice|puree|sauce|paste))"
+)
 _DESTROY_WITH = re.compile(
     r"(?:(?:please|now|just|robot|then|and|so|ok(?:ay)?|go ahead and|i (?:want|need|order|would like) you to|(?:can|could|will|would) you) )*"
     rf"(?P<order>{_DESTROY_IT}(?: flat| up| completely)?) (?:with|at|using|by applying) "

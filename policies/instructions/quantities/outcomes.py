@@ -86,7 +86,7 @@ _AUX = rf"(?:(?:is|was|were|are|has|have|had|got|gets|did|does|been|be|being|kee
 _LINK = r"(?P<link>(?:\s*(?:,|;|:|\(|–|—|-|->|=>|→|=|\.{3}|…|\.(?= ))\s*|\s+)(?:(?:and now|and|but|so|then|where|which|that|yet|when(?= (?:it|the \w+) \w+(?:ed|d)\b)|when(?= (?:it|the \w+) (?:fell|slid|broke|split|burst|tore)\b))\s+)*)"
 _LED = r"(?:(?:caus(?:es|ed)|result(?:s|ed) in|leads to|led to|gives|gave|means|meant|end(?:s|ed) in|produce[sd]|brought|saw|noticed|observed|found|let)(?: (?:it|them|a|an|some|the|to|visible|slight|severe|\w+ly)){0,3} )?"
 _IT_SLIPPED = re.compile(
-    rf"{_LINK}(?:{_SUBJECT} )?{_AUX}{_LED}(?:{_SLIPPED}|let (?:it|them|the \w+) (?:go|slip|fall|drop|slide)|drop (?:it|them|the \w+)(?= *(?:$|[.,;!?]))|(?:slip|drop|fall|loss)(?=[.,;!]|$| of\b))(?: (?:it|them|out|off|away|down|through|from|the gripper|of the (?:gripper|fingers|grip)|again|already|last time|yesterday|occurred|was (?:seen|observed)|happened))*"
+    rf"{_LINK}(?!(?:then )?drop (?:it|them|the)\b)(?:{_SUBJECT} )?{_AUX}{_LED}(?:{_SLIPPED}|let (?:it|them|the \w+) (?:go|slip|fall|drop|slide)|drop (?:it|them|the \w+)(?= *(?:$|[.,;!?]))|(?:slip|drop|fall|loss)(?=[.,;!]|$| of\b))(?: (?:it|them|out|off|away|down|through|from|the gripper|of the (?:gripper|fingers|grip)|again|already|last time|yesterday|occurred|was (?:seen|observed)|happened))*"
 )
 _IT_HURT = re.compile(
     rf"{_LINK}(?:(?:is|was|has|had) (?={_SUBJECT} ))?(?:{_SUBJECT} )?{_AUX}{_LED}(?:{_HURT}\b|(?:has been |was |were |is )?(?:found|seen|known|observed) to {_HURT}|(?:turn(?:s|ed)?|ma(?:kes|de)|went|goes) (?:(?:it|them|the \w+) )?(?:in)?to (?:jam|mush|pulp|juice|a mess|puree)|(?:would|will|could|might|may|can) (?:\w+ly )?(?:be )?(?:crush|squash|burst|bruise|break|crack|damage|hurt|ruin|mark|dent|split|destroy)\w*)"
