@@ -65,7 +65,7 @@ _CONTRACTIONS = (
     (r"\bhow (?:hard|tough|difficult) (?:can|could) (?:it|this|that) (?:possibly )?be\b", "well"),
     (r"\bsub[- ]?newtons?\b", "below 1 newton"),
     (r"\b(?:do not|never) (?:forget|neglect|fail|omit) to\b", "please"),
-    (rf"{_WANTED} (?:for you to|that you|to have you) (?!.*\?)", "please "),
+    (rf"{_WANTED} (?:for you to|that you|to have you|to be) (?!.*\?)", "please "),
     (rf"{_WANTED} (?:that|for) (?!.*\?)", "make sure that "),
     (rf"{_WANTED} (?=(?:an?|the|some|at|about|around|roughly|exactly|no|not|between|something|\.?\d)\b)(?!.*\?)", "use "),
     (r"\b((?:hand|pass|turn|bring|carry|move|flip|roll|give|take|get|tip|lift|put|set|send|slide|swing)(?:e?d|ing)? (?:it|this|that|them|(?:the|my|our) (?:\w+ )?\w+)) over(?= (?:with|at|using|below|under|between|and|to|here|there|by|in|max|min|not|no|never|without|but|as|very|\w+ly)\b)", r"\1"),
