@@ -243,7 +243,13 @@ def scaled_terms(factor: float, task: ForceTerms) -> ForceTerms:
     inside = min(abs(middle - band.low), abs(band.high - middle))
     half = min(max(LEAST_HALF * middle, inside), MOST_HALF * middle)
     scaled = Band(low=middle - half, high=middle + half)
-    return ForceTerms(force_n=scaled, limit_n=_scaled_limit_n(factor, scaled, task))
+    limit_n = _scaled_limit_n(factor, scaled, task)
+    return ForceTerms(force_n=_reachable(scaled, limit_n), limit_n=limit_n)
+
+
+def _reachable(band: Band, limit_n: float) -> Band:
+    """A band that begins where a force that is felt coarsely is let through below a limit."""
+    return replace(band, low=min(band.low, FIRMEST * limit_n))
 
 
 def _scaled_limit_n(factor: float, scaled: Band, task: ForceTerms) -> float:

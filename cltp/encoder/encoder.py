@@ -245,7 +245,8 @@ class Encoded(NamedTuple):
             the height quantiles where there are any; before them ``ordered_curves``, where the
             encoder has them. Of a grid the last entry is the logarithm of a cell's edge over
             ``UNIT_CELL_MM`` instead, by which heads turn cells into millimetres.
-        feature: Shape (B, F): aligned with CLIP, not yet normalised.
+        feature: Shape (B, F): aligned with CLIP, not yet normalised; (B, 0) where it is not asked
+            for.
     """
 
     tokens: Tensor
@@ -287,10 +288,14 @@ class TactileEncoder(nn.Module):
         else:
             self.feature = nn.Linear(config.pooled_dim, config.feature_dim, bias=False)
 
-    def forward(self, points: Tensor) -> Encoded:
+    def forward(self, points: Tensor, *, aligned: bool = True) -> Encoded:
         """Encode scaled points, shape (B, N, 3), or pixels, where the variant takes images.
 
         Points have the variant's layout and the order of ``cltp.tactile.encoder_input``.
+
+        Args:
+            points: The points, or the pixels.
+            aligned: Whether the feature is asked for; without, it has no width.
         """
         config, maps = self.config, None
         if config.counts_cells:
@@ -306,7 +311,8 @@ class TactileEncoder(nn.Module):
             if config.curves:
                 curves = ordered_curves(points, maps, config.bearing, config.grades, config.curves)
                 pooled = torch.cat([curves, pooled], dim=1)
-        return Encoded(tokens=x, pooled=pooled, feature=self.feature(pooled))
+        feature = self.feature(pooled) if aligned else pooled[:, :0]
+        return Encoded(tokens=x, pooled=pooled, feature=feature)
 
     def class_token(self, tokens: Tensor, terms: HeightTerms | None) -> Tensor:
         """The class token, shape (B, 1, C), with everything that is read without attention.

@@ -162,7 +162,7 @@ class Talker:
         """
         marks = [self._clock()]
         batch = torch.from_numpy(points)[None]
-        encoded = self.model.encoder(batch)
+        encoded = self.model.encoder(batch, aligned=False)
         marks.append(self._clock())
         output = self.model.heads.read(encoded.pooled, batch)
         readings = readings_of(output, scale.factor, scale.spread)

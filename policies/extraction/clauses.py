@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 import unicodedata
 from dataclasses import dataclass
+from functools import lru_cache
 
 from primitives import Primitive
 
@@ -108,6 +109,7 @@ def split_sentences(text: str) -> tuple[Sentence, ...]:
     return tuple(sentence for sentence in sentences if sentence.clauses)
 
 
+@lru_cache(maxsize=256)
 def _sentence(text: str, *, question: bool) -> Sentence:
     for pattern, replacement in _PHRASES:
         text = re.sub(pattern, replacement, text)
@@ -128,8 +130,10 @@ def _sentence(text: str, *, question: bool) -> Sentence:
 
 def _words(text: str) -> list[str]:
     """Words and separators of a text, in one spelling each."""
-    text = unicodedata.normalize("NFKD", text)
-    text = "".join(c for c in text if unicodedata.category(c) not in ("Cf", "Mn", "Cs")).casefold()
+    if not text.isascii():
+        text = unicodedata.normalize("NFKD", text)
+        text = "".join(c for c in text if unicodedata.category(c) not in ("Cf", "Mn", "Cs"))
+    text = text.casefold()
     for pattern, replacement in _SPELLINGS:
         text = re.sub(pattern, replacement, text)
     text = re.sub(r"[a-z_]+", lambda m: IDENTIFIERS.get(m[0], m[0].replace("_", " ")), text)

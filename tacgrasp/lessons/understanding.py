@@ -168,12 +168,19 @@ def understood(writer: QueryWriter, question: str, before: str = "") -> ReadQues
     return understood_by_grammar(question, before) or understood_by_model(writer, question, before)
 
 
+LONGEST = 2000
+"""Characters of a question beyond which no wording is looked for; the grammar's have 200. Ten
+thousand words would take a minute and a half."""
+
+
 def understood_by_grammar(question: str, before: str = "") -> ReadQuestion | None:
     """What a question means by the grammar; None where it has not the wording.
 
     Some of its wordings (``MOST_JOINED`` at most) that are joined by a comma, 'and' or a question
     mark are asked together.
     """
+    if len(question) > LONGEST:
+        return None
     question = compared_aright(with_plain_numbers(question))
     said = reworded(question)
     if said and (read_so := understood_by_grammar(said, before)):
