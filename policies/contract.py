@@ -17,6 +17,7 @@ from cltp.texts.captions import with_article
 from policies.force_terms import (
     AROUND,
     LEANS,
+    MANNER_NAMES,
     MANNERS,
     ROUNDING,
     RefusedError,
@@ -218,7 +219,7 @@ def _take_words(draft: _Draft, request: Request, task: TaskTerms, *, is_own: boo
     elif manner.sign and is_own:
         draft.assumed.append(f"{manner.words!r} is what the task's own band means")
     elif manner.sign:
-        name = ("very " if manner.strong else "") + ("gentle" if manner.sign < 0 else "firm")
+        name = MANNER_NAMES[manner.sign, manner.strong]
         force = scaled_terms(MANNERS[manner.sign, manner.strong], task.force)
         draft.set_force(force, f"{name}: your words: {manner.words}")
     elif manner.words:

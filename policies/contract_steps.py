@@ -13,6 +13,7 @@ from dataclasses import replace
 
 from cltp.tactile.measure import contact_state
 from cltp.tactile.states import ContactState
+from policies.force_terms import FIRMEST, MANNER_NAMES
 from policies.goal import Goal
 from policies.needs import NEEDS, FeltNeed, TouchedObject
 from policies.observation import Observation
@@ -28,6 +29,8 @@ CLEARLY = 1.65
 """Factor by which a felt force must lie outside the band before a decision goes against it. Source:
 the largest error of a felt force in 160 simulated contacts on the pad, 1.7."""
 
+
+_BY_FIRM_MANNER = tuple(f"{MANNER_NAMES[+1, strong]}: " for strong in (False, True))
 
 TARGET_FACTOR = 1.1
 """Ends of a target over its middle, up and down. Our choice: twice what a felt force varies from
@@ -47,7 +50,8 @@ class TargetTracker:
         """The contract of a step, and what was felt of the object in words.
 
         The words are empty, and the contract as it is, where it names no kind of object, or nothing
-        is felt.
+        is felt. Without a kind, a band that a firm manner has moved yields to what the limit lets
+        through.
 
         Args:
             contract: The contract.
@@ -56,7 +60,7 @@ class TargetTracker:
                 that is not known.
         """
         if contract.needs not in NEEDS:
-            return contract, ""
+            return _within_reach(contract, reach_n)
         if self._object is None or contract.needs != self._needs:
             self._needs, self._object = contract.needs, TouchedObject(NEEDS[contract.needs])
         state = contact_state(observation.cloud, in_contact=observation.in_contact)
@@ -64,6 +68,18 @@ class TargetTracker:
         if need is None:
             return contract, ""
         return replace(contract, force_n=needed(contract, need, reach_n)), need.text
+
+
+def _within_reach(contract: Contract, reach_n: float | None) -> tuple[Contract, str]:
+    """The contract with as firm a band as the limit lets through, but for ``FIRMEST`` of it."""
+    band, origin = contract.terms.force_n, contract.origins.get("force_n", "")
+    if reach_n is None or not origin.startswith(_BY_FIRM_MANNER):
+        return contract, ""
+    low = min(band.low, max(reach_n / TARGET_FACTOR, FIRMEST * contract.terms.limit_n))
+    if low == band.low:
+        return contract, ""
+    words = f"as firm as the limit of {contract.terms.limit_n:.3g} N lets through"
+    return replace(contract, force_n=Band(low=low, high=band.high)), words
 
 
 def needed(contract: Contract, need: FeltNeed, reach_n: float | None = None) -> Band:

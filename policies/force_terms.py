@@ -55,6 +55,14 @@ MOST_OF_NEEDS = 1.4
 """The same for a task whose band is that of objects of all sizes: three times what one of a common
 size (a berry of 25 g) may be pressed with."""
 
+MANNER_NAMES: Mapping[tuple[int, bool], str] = {
+    (-1, True): "very gentle",
+    (-1, False): "gentle",
+    (+1, False): "firm",
+    (+1, True): "very firm",
+}
+"""How the origin of a band that a manner has moved begins, by the keys of ``MANNERS``."""
+
 LEANS: Mapping[tuple[int, bool], float] = {
     (-1, True): 0.1,
     (-1, False): 0.25,
@@ -243,13 +251,7 @@ def scaled_terms(factor: float, task: ForceTerms) -> ForceTerms:
     inside = min(abs(middle - band.low), abs(band.high - middle))
     half = min(max(LEAST_HALF * middle, inside), MOST_HALF * middle)
     scaled = Band(low=middle - half, high=middle + half)
-    limit_n = _scaled_limit_n(factor, scaled, task)
-    return ForceTerms(force_n=_reachable(scaled, limit_n), limit_n=limit_n)
-
-
-def _reachable(band: Band, limit_n: float) -> Band:
-    """A band that begins where a force that is felt coarsely is let through below a limit."""
-    return replace(band, low=min(band.low, FIRMEST * limit_n))
+    return ForceTerms(force_n=scaled, limit_n=_scaled_limit_n(factor, scaled, task))
 
 
 def _scaled_limit_n(factor: float, scaled: Band, task: ForceTerms) -> float:

@@ -9,7 +9,9 @@ from hypothesis import strategies as st
 from policies import Observation
 from policies.contract import read_contract
 from policies.contract_steps import TARGET_FACTOR, TargetTracker, needed
+from policies.force_terms import FIRMEST
 from policies.needs import FeltNeed
+from primitives.contract import Band
 from primitives.sense import Interval
 from tests.fakes.contracts import BERRY, contract, terms
 from tests.fakes.loop_fakes import touch
@@ -95,3 +97,26 @@ def test_without_a_kind_or_a_felt_force_the_contract_is_the_target():
     plain = contract(1.0, 2.0, 2.5)
     assert TargetTracker().contract_at(plain, felt_grip(0.3)) == (plain, "")
     assert TargetTracker().contract_at(OWN, felt_grip(None)) == (OWN, "")
+
+
+@pytest.mark.parametrize(
+    ("origin", "reach_n", "low_n"),
+    [
+        ("very firm: your words: very firmly", 5.8, 5.8 / TARGET_FACTOR),
+        ("very firm: your words: very firmly", 4.0, FIRMEST * 9.0),
+        ("very firm: your words: very firmly", 9.0, 5.9),
+        ("very firm: your words: very firmly", None, 5.9),
+        ("your words: 6 N", 5.8, 5.9),
+        ("gentle: your words: gently", 5.8, 5.9),
+        ("the task", 5.8, 5.9),
+    ],
+)
+def test_a_firm_manner_yields_to_what_the_limit_lets_through(
+    origin: str, reach_n: float | None, low_n: float
+):
+    firm = contract(5.9, 8.3, 9.0)
+    firm = replace(firm, origins={**firm.origins, "force_n": origin}, needs="")
+    aimed, words = TargetTracker().contract_at(firm, felt_grip(0.3), reach_n)
+    assert aimed.terms.force_n == Band(low=pytest.approx(low_n), high=8.3)
+    assert aimed.limit_n == 9.0
+    assert bool(words) == (low_n < 5.9)
