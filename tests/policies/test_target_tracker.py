@@ -11,7 +11,6 @@ from policies.contract import read_contract
 from policies.contract_steps import TARGET_FACTOR, TargetTracker, needed
 from policies.force_terms import FIRMEST
 from policies.needs import FeltNeed
-from primitives.contract import Band
 from primitives.sense import Interval
 from tests.fakes.contracts import BERRY, contract, terms
 from tests.fakes.loop_fakes import touch
@@ -117,6 +116,6 @@ def test_a_firm_manner_yields_to_what_the_limit_lets_through(
     firm = contract(5.9, 8.3, 9.0)
     firm = replace(firm, origins={**firm.origins, "force_n": origin}, needs="")
     aimed, words = TargetTracker().contract_at(firm, felt_grip(0.3), reach_n)
-    assert aimed.terms.force_n == Band(low=pytest.approx(low_n), high=8.3)
+    assert (aimed.terms.force_n.low, aimed.terms.force_n.high) == pytest.approx((low_n, 8.3))
     assert aimed.limit_n == 9.0
     assert bool(words) == (low_n < 5.9)
