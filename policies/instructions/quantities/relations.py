@@ -8,14 +8,16 @@ from policies.instructions.quantities.force import Kind
 
 _FIRMER = r"(?:harder|firmer|tighter|stronger|heavier|larger|bigger|greater|higher)"
 _SOFTER = r"(?:softer|gentler|lighter|weaker|looser|lower|lesser|smaller|small|low|fewer)"
+_ABOUT = r"(?: ?(?:about|around|roughly|approximately|approx\.?|circa|ca\.?|some|something like|nearly|almost))"
+"""What may stand between a bound and its force; it changes no bound."""
 _ABOVE = re.compile(
     rf"\b(?:over|above|beyond|past|exceed(?:s|ed|ing)?|surpass\w*|in excess of|north of|upwards? of|"
     rf"pass(?:es|ing)?|top(?:s|ping)?|cross(?:es|ing)?|overshoot\w*|overstep\w*|(?:any |a \w+ |\w+ )?more(?: \w+)? than(?: (?:you|i|we) (?:would|do|did)(?: (?:hold|press|squeeze|use|with|at|for|on))*)?|{_FIRMER}(?: \w+)? than(?: you would)?(?: with| at)?)"
-    r"(?: the| a| of)?\s*$|>\s*$"
+    rf"(?: the| a| of)?{_ABOUT}?\s*$|>{_ABOUT}?\s*$"
 )
 _BELOW = re.compile(
     rf"\b(?:under(?:neath)?|below|beneath|less(?: \w+)? than|{_SOFTER}(?: \w+)? than|south of|short of|"
-    r"shy of|sub)(?: the| a)?\s*-?$|<\s*$"
+    rf"shy of|sub)(?: the| a)?{_ABOUT}?\s*-?$|<{_ABOUT}?\s*$"
 )
 _MOST = re.compile(
     r"(?:\b(?:less|lower|smaller) than or equal to|\b(?:at|under|below) or (?:under|below|at)|\b(?:ends|tops out|finish\w*|finishes)(?: \w+){0,3} (?:at|before)|\b(?:stop\w*|halt\w*|quit\w*|ceas\w*|abort\w*|relent\w*|releas\w*|loosen\w*|(?:back\w*|eas\w+|lay\w*|leav\w+|cut\w*) off|let\w* (?:go|up)|giv\w+ (?:up|way)|pull\w* (?:up|back|out))(?: \w+){0,3} before|(?<!not )(?<!never )\b(?:stop|quit|halt|cease|leave off|cut (?:out|off)|finish|pull up|abort|bail(?: out)?|trip|fault|e-?stop|shut (?:down|off)|give up|let go|back off|alarm)(?:s|p?p?ing|ed)?(?: \w+ing)?(?: (?:it|in|down|up|on it|on this|dead|short|the (?:berry|strawberry|fruit|fingers|jaws|gripper)))? at|"
@@ -31,7 +33,7 @@ _MOST = re.compile(
     r"\bkeep(?:s|ing)?(?: \w+){0,3} from (?:reach|hitt|gett|ris|go|climb)ing(?: (?:up |all the way )?to)?|\b(?:can not|could not|will not|never) (?:handle|take|stand|bear|withstand|tolerate|survive|endure)|"
     r"<=|≤|=<|\bnot to exceed|\bat (?:the )?worst|\bworst case|\bwithin|\bbounded (?:above )?(?:by|at)|\b(?:not|never)(?: let it)? (?:go|push|squeeze|press)(?: \w{1,4})?|\b(?:top|max|peak|level)(?:p?ing|s|p?ed)?(?: \w+)?(?: out)? at|\b(?:restrict|confin|constrain|throttl)\w*(?: \w+){0,3}? (?:to|at|by)|\b(?:may|can|could|might)(?: only| just| at most)? (?:be (?:raised|increased)|rise|go|climb|increase|grow|build|reach|extend)(?: up)?(?: to)?|\b(?:not|never|without|avoid\w*)(?: (?:ever|let|the|force|it|grip|even|quite|to|be|going|you|allow\w*|pressure|have|want|go|come|rise)){0,5} (?:reach(?:es|ing)?|hit(?:s|ting)?|get(?:s|ting)? (?:up )?to|attain\w*|ris(?:e|es|ing) to|climb\w* to|go(?:ing|es)? (?:up |all the way )?to)|\b(?:budget|allowance)(?: of| is|:)?|\bno more than|\bnowhere near|\b(?:allow(?:ed)?|permit(?:ted)?)(?: is (?:until|till|up to))?(?: (?:up )?to(?: (?:use|reach|rise to|climb to|go(?: up)? to))?)?|"
     r"\b(?:ease|eases|back|let)(?: \w+){0,2} (?:once|when|as soon as|at)(?: (?:you|it|we))?(?: (?:feel|reach|hit|see|measure|get to|read)\w*)?|\bfar (?:away )?from|\b(?:not|never)(?: (?:even|anywhere|get|go|come|be))* (?:close|near)(?: to)?|\bf[_ ]?max\s*[:=]?)"
-    r"(?: (?:about|around|roughly))?\s*$"
+    rf"{_ABOUT}?\s*$"
 )
 _LEAST = re.compile(
     r"(?:\b(?:more|greater|higher|larger) than or equal to|\b(?:at|over|above) or (?:over|above|at)|"
@@ -39,7 +41,7 @@ _LEAST = re.compile(
     r"\b(?:lower|bottom) (?:\w+ )?(?:limit|bound|end)(?: \w+){0,2}?(?: of| is| at|:| =|=)?|\bfloor(?: \w+){0,3}?(?: of| is| at|:| =|=)?|"
     r">=|≥|=>|\bno less than|\bno (?:weaker|less|softer|lower|gentler|looser|smaller)(?: an?)? (?:grip|squeeze|hold|force|clamp|pressure|grasp)(?: strength)? than|\bat (?:the )?(?:very )?least (?:with|at|use|apply)|\b(?:it|berry|fruit|this|that|one|strawberry|thing) (?:really |always )?(?:needs|requires|takes)|\bf[_ ]?min\s*[:=]?|\bstarting (?:at|from)|\bbottom out at|"
     r"\b(?:lower|low|bottom)[ -](?:alarm|trip|warning|threshold|cut-?off|guard)s?(?: (?:threshold|level|limit|point|value))?(?: of| is| at|:| =|=)?)"
-    r"(?: (?:about|around|roughly))?\s*$"
+    rf"{_ABOUT}?\s*$"
 )
 _TAKES = re.compile(r"\b(?:needs|requires|takes)\b")
 """'It takes 0.8 N, no more'."""

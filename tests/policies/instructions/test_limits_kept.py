@@ -94,3 +94,29 @@ def test_a_force_that_is_denied_above_a_least_is_the_most() -> None:
     held = read_contract("Use at least 0.5 N and never 0.7 N.", terms(), {})
     assert held.terms.limit_n == pytest.approx(0.99 * 0.7)
     assert any("0.7 N" in note and "limit" in note for note in held.assumed)
+
+
+MOSTS = (
+    *("at most", "no more than", "less than", "below", "under", "up to", "max", "a maximum of"),
+    *("never exceed", "do not exceed", "not above", "stay below", "keep it under", "beneath"),
+    *("without exceeding", "limit it to", "capped at", "no higher than", "short of", "within"),
+    *("lower than", "not beyond", "<", "<=", "≤", "avoid exceeding", "back off before"),
+    *("the force must stay below", "the upper limit is", "it can take at most", "it breaks at"),
+)
+FILLERS = (
+    *("", "about ", "~", "approx. ", "ca. ", "a force of ", "a total of ", "a gripping force of "),
+    *("exactly ", "the ", "a mere ", "just ", "only ", "something like ", "a value of ", "maybe "),
+)
+
+
+@pytest.mark.parametrize("filler", FILLERS)
+def test_words_between_a_bound_and_its_force_change_no_bound(filler: str) -> None:
+    task = terms()
+    lost = [
+        text
+        for most, frame in product(MOSTS, ("hold it, {}", "{}"))
+        for text in (frame.format(f"{most} {filler}0.9 N"),)
+        for held in (read_contract(text, task, {}),)
+        if not held.refused and held.terms.limit_n > 0.9
+    ]
+    assert lost == []
