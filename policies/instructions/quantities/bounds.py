@@ -97,6 +97,48 @@ def _close_above(match: re.Match[str]) -> str:
     return f"{match['before']}between {match['value']} and {top} {match['unit']}"
 
 
+_A_FORCE = rf"(?:(?:about|around|roughly|approximately) )?{NUMBER}\s*-?\s*(?:{UNIT})\b"
+_WORDED = NumberPattern(
+    r"(?<!needs )(?<!need )(?<!takes )(?<!requires )(?<!wants )\b(?:an?|the|your|its|my|our|this|that) (?:(?!max|min|peak|top|upper|lower|high|low|least|most|limit|more|less|small|larg|bigg|great)\w+ ){0,2}"
+    rf"(?:force|grip|squeeze|total|value|strength|pressure|load|level|figure|magnitude|amount|equivalent|sum|force value) of (?={_A_FORCE})"
+)
+"""'A gripping force of 0.9 N' is 0.9 N."""
+_OF_FORCE = NumberPattern(
+    rf"(?P<force>{NUMBER}\s*-?\s*(?:{UNIT})\b)(?: of (?:(?:the|your|its|my|our) )?(?:(?!max|min|peak|top|upper|lower|no|at)\w+ ){{0,2}}(?:force|grip|pressure|squeeze|strength)\b| (?:in )?total\b| all in all\b| overall\b|"
+    r" (?:per|on each|with each|on either) (?:finger|pad|side|jaw)\b| each\b(?! (?:time|second|step|try))| or so\b| (?:on|to) (?:it|this|that|the (?:(?:straw ?)?berr(?:y|ies)|fruit|object|thing))\b| there\b(?! (?:is|are)\b)| here\b| right now\b|,? i (?:think|guess|suppose|believe|reckon)\b,?| please\b)+"
+)
+"""'0.9 N of gripping force' is 0.9 N, and '0.9 N or so' too."""
+_HARMED = r"(?:bruis|crush|squash|damag|hurt|harm|break|broken|burst|split)\w*"
+_NO_MORE = NumberPattern(
+    rf"(?P<force>{NUMBER}\s*-?\s*(?:{UNIT})\b)(?:\s*[,;:–—-]+\s*| )(?:(?:and|but) )?(?:"
+    r"not (?:any )?more than (?:that|this)\b|nothing (?:above|beyond)(?: (?:that|it))?(?=\s*(?:$|[.,;!?]))|"
+    r"not (?:a|one|1) (?:single )?(?:newton|millinewton|bit|gram|hair|tad|whit|jot) more\b|"
+    rf"(?:any(?:thing)? )?more (?:would|will|might|could|may) {_HARMED}(?: it)?|(?:beyond|above|past) (?:that|this|it) it (?:(?:will|would|may|might|could) )?{_HARMED}|"
+    rf"or (?:else )?it (?:(?:gets|is|will be|would be|will get|will|would) )?{_HARMED}|"
+    rf"is (?:all|as much as|the most) (?:that )?(?:it|this|the (?:\w+ )?(?:berry|fruit)) (?:(?:can|will|could) )?(?:takes?|stands?|bears?|tolerates?|endures?)(?: before it (?:is )?{_HARMED})?|"
+    r"is as (?:far|high|hard|much|firm) as (?:you|it|we) (?:may|can|should|shall|must) (?:ever )?(?:go|press|squeeze|use|get)\b|"
+    rf"is (?:(?:the point )?where|when) it {_HARMED}|\[\s*max(?:imum|\.)?\s*\])"
+)
+"""'0.9 N or it breaks', '0.9 N is all it can take'."""
+_AFTER_BOUND = NumberPattern(
+    r"(?P<bound>\b(?:most|least|than|below|under|beneath|exceed(?:s|ing)?|above|over|past|beyond|within|up to|before|max(?:imum)?|min(?:imum)?|(?:limit(?:ed)?(?: it)?|cap(?:ped)?) (?:to|of|is|at)|short of|(?:bruis|break|burst|crush|squash)\w* at|(?:allowed|cap|limit|max|ceiling):)|[<>≤≥]=?)"
+    r"(?: (?:the|exactly|precisely|just|only|a mere|merely|maybe|perhaps|possibly|say|something like|the equivalent of|what (?:you|we|i) know as|an? (?!max|min)\w+(?:ed|al)))+"
+    rf" (?={_A_FORCE})"
+)
+"""'At most a mere 0.9 N', 'below the 0.9 N'."""
+
+
+def with_bounds_at_forces(text: str) -> str:
+    """Leave out of a plain text what stands between a force and its bound and changes neither.
+
+    Args:
+        text: Plain text, its numbers in digits.
+    """
+    text = _OF_FORCE.sub(r"\g<force>", _WORDED.sub("", text))
+    text = _NO_MORE.sub(r"\g<force> at most", text)
+    return _AFTER_BOUND.sub(r"\g<bound> ", text)
+
+
 def with_plain_bounds(text: str) -> str:
     """Write each bound of a plain text, its numbers in digits, with its words before its force."""
     text = _NOT_MORE.sub(r"\1 than ", text)

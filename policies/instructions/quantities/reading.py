@@ -10,7 +10,7 @@ import re
 from dataclasses import dataclass, field
 
 from policies.instructions.english.number_pattern import NumberPattern
-from policies.instructions.quantities.bounds import with_plain_bounds
+from policies.instructions.quantities.bounds import with_bounds_at_forces, with_plain_bounds
 from policies.instructions.quantities.elisions import bare_number, left_over, written_out
 from policies.instructions.quantities.factors import denied_factor, read_delta, read_factor
 from policies.instructions.quantities.force import WORKED_OUT, Force
@@ -100,18 +100,6 @@ _PERCENT_OF_NOTHING = NumberPattern(
 )
 
 
-_A_FORCE = rf"(?:(?:about|around|roughly|approximately) )?{NUMBER}\s*-?\s*(?:{UNIT})\b"
-_WORDED = NumberPattern(
-    r"(?<!needs )(?<!need )(?<!takes )(?<!requires )(?<!wants )\b(?:an?|the|your|its|my|our|this|that) (?:(?!max|min|peak|top|upper|lower|high|low|least|most|limit|more|less|small|larg|bigg|great)\w+ ){0,2}"
-    rf"(?:force|grip|squeeze|total|value|strength|pressure|load|level|figure|magnitude|amount|equivalent|sum|force value) of (?={_A_FORCE})"
-)
-"""'A gripping force of 0.9 N' is 0.9 N."""
-_AFTER_BOUND = NumberPattern(
-    r"(?P<bound>\b(?:most|least|than|below|under|beneath|exceed(?:s|ing)?|above|over|past|beyond|within|up to|before|max(?:imum)?|min(?:imum)?|(?:limit(?:ed)?(?: it)?|cap(?:ped)?) (?:to|of|is|at)|short of|(?:bruis|break|burst|crush|squash)\w* at|(?:allowed|cap|limit|max|ceiling):)|[<>≤≥]=?)"
-    r"(?: (?:the|exactly|precisely|just|only|a mere|merely|maybe|perhaps|possibly|say|something like|the equivalent of|what (?:you|we|i) know as|an? (?!max|min)\w+(?:ed|al)))+"
-    rf" (?={_A_FORCE})"
-)
-"""'At most a mere 0.9 N', 'below the 0.9 N'."""
 _ONE_THIRD = NumberPattern(rf"\b(?:one|1) (?=0\.\d+\s*(?:{UNIT})\b)")
 """'One third newton', in digits."""
 _SPELLINGS = (
@@ -133,8 +121,7 @@ def _plain_bound(match: re.Match[str]) -> str:
 
 def read_quantities(text: str) -> Quantities:
     """Read the numbers of a plain text (``policies.instructions.english.text.plain``)."""
-    text = _AFTER_BOUND.sub(r"\g<bound> ", _WORDED.sub("", in_digits(text)))
-    text = _FILLED.sub(_plain_bound, text)
+    text = _FILLED.sub(_plain_bound, with_bounds_at_forces(in_digits(text)))
     text = _ONE_THIRD.sub("", text)
     text = _INTERJECTED.sub(r"\1, no wait, ", text)
     text = _ELLIPSIS.sub(r"no \2 than \3 \1", text)

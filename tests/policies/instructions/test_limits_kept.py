@@ -120,3 +120,29 @@ def test_words_between_a_bound_and_its_force_change_no_bound(filler: str) -> Non
         if not held.refused and held.terms.limit_n > 0.9
     ]
     assert lost == []
+
+
+BEHIND = (
+    *("at most", "max", "tops", "or less", "and no more", "and never above", "(max)", "[max]"),
+    *("as an upper bound", "is the limit", "is the most it can take", "is all it can take"),
+    *("must not be exceeded", "is too much", "crushes it", "would hurt it", "or it breaks"),
+    *("and not a newton more", "and nothing above", "; not more than that", ", not more"),
+    *(", stay below it", ", that is the limit", ", more would bruise it", "- not more"),
+)
+BETWEEN = (
+    *("", " of force", " of gripping force", " or so", " total", " in total", " of pressure"),
+    *(" per finger", " each", " on the berry", " on it", " here", " please", " I think"),
+)
+
+
+@pytest.mark.parametrize("between", BETWEEN)
+def test_words_between_a_force_and_its_bound_change_no_bound(between: str) -> None:
+    task = terms()
+    lost = [
+        text
+        for bound, frame in product(BEHIND, ("hold it: {}", "{}"))
+        for text in (frame.format(f"0.9 N{between}{bound if bound[0] in ',;' else f' {bound}'}"),)
+        for held in (read_contract(text, task, {}),)
+        if not held.refused and held.terms.limit_n > 0.9
+    ]
+    assert lost == []
