@@ -12,6 +12,7 @@ from policies.instructions.manner import Manner, has_manner, read_manner
 from policies.instructions.other_forces import SaidNeed, need_of, without_other_forces
 from policies.instructions.own_work import without_own_work
 from policies.instructions.quantities import Quantities, read_quantities
+from policies.instructions.quantities.bounds import with_bounds_at_forces
 from policies.instructions.quantities.numerals import in_digits
 from policies.instructions.refusal import refusal_of
 from policies.instructions.statements import condition_of, without_statements
@@ -136,7 +137,8 @@ _SHORT = re.compile(
 
 def read_request(text: str) -> Request:
     """Read an instruction as a person wrote it."""
-    clean = without_other_forces(in_digits(spelled(plain(text[:MAX_CHARACTERS]))))
+    clean = with_bounds_at_forces(in_digits(spelled(plain(text[:MAX_CHARACTERS]))))
+    clean = without_other_forces(clean)
     clean, numbers, stated = _meant(clean)
     verb = words.HOLD.search(_A_LITTLE.sub("", numbers.rest))
     thing = _THING.search(_LIKE.sub(" ", numbers.rest))

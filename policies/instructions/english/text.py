@@ -123,6 +123,34 @@ _ASIDE = re.compile(
 """Said between a denial and its verb: 'do not, under any circumstances, exceed 1 N'."""
 
 
+_GOES_ON_BEHIND = frozenset(
+    "at with to of than the a an no not never and or but about around below above under over exceed "  # noqa: SIM905
+    "from between by is are be for in on as if using use apply".split(" ")
+)
+_GOES_ON_WITH = frozenset(
+    "than of at to or and but nor most least more less max min n mn newton newtons g gram grams with "  # noqa: SIM905
+    "without while when if because since that which who so as please tops is are was must should may "
+    "might will would can could not per for on in".split(" ")
+)
+"""Words that a line does not end with, and that none begins with, where a sentence ends there."""
+
+
+def _in_sentences(text: str) -> str:
+    """A text whose lines end as sentences do, where they may."""
+    first, *lines = [line.strip() for line in text.split("\n") if line.strip()] or [""]
+    for line in lines:
+        before, behind = re.search(r"[a-z]+\W*$", first), re.match(r"[a-z]+", line)
+        goes_on = (
+            not before
+            or not before[0].isalpha()
+            or before[0] in _GOES_ON_BEHIND
+            or not behind
+            or behind[0] in _GOES_ON_WITH
+        )
+        first += (" " if goes_on else ". ") + line
+    return first
+
+
 def plain(text: str) -> str:
     """Lower case, straight quotes, contractions written out, single spaces."""
     text = re.sub(f"[{_MARKS}]", "'", text)  # before compatible forms: '´' would become a space
@@ -131,7 +159,7 @@ def plain(text: str) -> str:
     text = text.replace("!>", "<=").replace("!<", ">=").translate(_SIGNS)
     text = unicodedata.normalize("NFKC", html.unescape(text)).lower()
     text = "".join(c for c in text if unicodedata.category(c) != "Cf")  # what nobody sees
-    text = text.replace("()", "").replace("−", "-")
+    text = _in_sentences(text.replace("()", "").replace("−", "-"))
     for pattern, replacement in (*_TYPED, *_CONTRACTIONS, *_FOREIGN_BOUNDS):
         text = re.sub(pattern, replacement, text)
     text = re.sub(r"\banything (?:but|other than|except)\b", "not", text)

@@ -103,9 +103,11 @@ _WORDED = NumberPattern(
     rf"(?:force|grip|squeeze|total|value|strength|pressure|load|level|figure|magnitude|amount|equivalent|sum|force value) of (?={_A_FORCE})"
 )
 """'A gripping force of 0.9 N' is 0.9 N."""
+_GOES_ON = r"(?=\s*(?:$|[.,;:!?()\[\]–-]|(?:at|max|maximum|tops|or|and|but|is|must|should|may|as|would|already|crush\w*|hurts?|breaks?)\b))"
 _OF_FORCE = NumberPattern(
     rf"(?P<force>{NUMBER}\s*-?\s*(?:{UNIT})\b)(?: of (?:(?:the|your|its|my|our) )?(?:(?!max|min|peak|top|upper|lower|no|at)\w+ ){{0,2}}(?:force|grip|pressure|squeeze|strength)\b| (?:in )?total\b| all in all\b| overall\b|"
-    r" (?:per|on each|with each|on either) (?:finger|pad|side|jaw)\b| each\b(?! (?:time|second|step|try))| or so\b| (?:on|to) (?:it|this|that|the (?:(?:straw ?)?berr(?:y|ies)|fruit|object|thing))\b| there\b(?! (?:is|are)\b)| here\b| right now\b|,? i (?:think|guess|suppose|believe|reckon)\b,?| please\b)+"
+    r" (?:per|on each|with each|on either) (?:finger|pad|side|jaw)\b| each\b(?! (?:time|second|step|try))| or so\b|"
+    rf"(?: (?:on|to) (?:it|this|that|the (?:(?:straw ?)?berr(?:y|ies)|fruit|object|thing))| there| here| right now| please){_GOES_ON}|,? i (?:think|guess|suppose|believe|reckon)\b,?)+"
 )
 """'0.9 N of gripping force' is 0.9 N, and '0.9 N or so' too."""
 _HARMED = r"(?:bruis|crush|squash|damag|hurt|harm|break|broken|burst|split)\w*"
@@ -128,6 +130,13 @@ _AFTER_BOUND = NumberPattern(
 """'At most a mere 0.9 N', 'below the 0.9 N'."""
 
 
+_TOLD_BEFORE = NumberPattern(
+    rf"(?P<told>\b(?:slip|slid|fell|drop|bruis|crush|broke|burst|squash)\w*[^.;,#\d]{{0,30}}{NUMBER}\s*-?\s*(?:{UNIT})) [-–—] "
+    rf"(?={NUMBER}\s*-?\s*(?:{UNIT})\b,? (?:at most|max|tops|or (?:less|below|under)|is (?:all|the|too|as)|and (?:no|not|never)|must not|not more|no more|stay))"
+)
+"""'It slipped with 0.3 N - 0.9 N at most' has no range."""
+
+
 def with_bounds_at_forces(text: str) -> str:
     """Leave out of a plain text what stands between a force and its bound and changes neither.
 
@@ -135,6 +144,7 @@ def with_bounds_at_forces(text: str) -> str:
         text: Plain text, its numbers in digits.
     """
     text = _OF_FORCE.sub(r"\g<force>", _WORDED.sub("", text))
+    text = _TOLD_BEFORE.sub(r"\g<told>. ", text)
     text = _NO_MORE.sub(r"\g<force> at most", text)
     return _AFTER_BOUND.sub(r"\g<bound> ", text)
 

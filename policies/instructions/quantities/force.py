@@ -31,3 +31,8 @@ class Force:
     words: str
     is_told: bool = False
     within_n: tuple[float, float] | None = None
+
+
+NO_OTHER_FORCE = r"(?! (?:with|at|under|below|from|using|on|above|over|beyond)(?: (?:only|just|about|around|roughly|a force of))* (?:\.?\d|#))"
+"""Behind an outcome: one that has a force of its own is none of the force before it, as in 'under 1 N,
+but it slipped with 0.3 N'."""

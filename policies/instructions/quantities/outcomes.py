@@ -11,6 +11,8 @@ import re
 from dataclasses import dataclass
 from typing import Literal
 
+from policies.instructions.quantities.force import NO_OTHER_FORCE
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class EarlierGrip:
@@ -46,7 +48,7 @@ _HURT = (
     rf"(?:fell|falls|fallen|comes?|came|goes|went) {_APART}|(?:left|leaves|leaving|leave|made|makes|showed|shows|got|had|has) (?:\w+ ){{0,3}}?(?:marks?|dents?|bruis\w*|imprints?|indentations?|prints?|damage|cracks?|traces?|scars?|grooves?))"
 )
 _ADVERB = r"(?:(?!hardly|barely|scarcely|rarely)\w+ly|still|just|always|then|soon|again|almost|nearly|also|already|even|sometimes|often|twice|once|right|immediately)"
-_FILL = r"(?: (?!(?:so|use|using|hold|grip|apply|take|set|make|keep|squeeze|pick|lift|try|now|today|please|then|but|and|or|if|this time|not|never|no|to|until|need|needs|want|wants|should|must|held|below|under|above|over|with|at)\b)(?:\w|[.,](?=\d)|[-'])+){0,6}?"
+_FILL = r"(?: (?!(?:so|use|using|hold|grip|apply|take|set|make|keep|squeeze|pick|lift|try|now|today|please|then|but|and|or|if|this time|not|never|no|to|until|need|needs|want|wants|should|must|held|below|under|above|over|with|at)\b)(?:\w|[.,](?=\d)|(?<=\w)[-'])+){0,6}?"
 _WHEN = r"(?:when|while|because|as|where|after|since|the time)(?: (?:only|just|it|i|we|you|he|she|they|was|were|is|had|only|the|a|force|grip|pressure|berry|fruit|sample|one|being|been|got|\w+ly)){0,5} (?:used|using|applied|applying|gripped|gripping|held|holding|pressed|pressing|squeezed|squeezing|tried|set|had|has|was|is|were|went|took|at|with|grasped|clamped|lifted|picked(?: up)?)(?: it| them| the \w+)?(?: (?:at|with|to|by|using|up to))?"
 _ROUGHLY = r"(?: (?:about|around|roughly|approximately|approx\.?|only|just|merely|a mere|as (?:little|low|much) as|even|exactly|the|some|any|a|forces?(?: of)?|a (?:force|grip|load|pressure) of|c(?:irc)?a\.?|already|maybe|like))*"
 _AT = (
@@ -86,11 +88,11 @@ _AUX = rf"(?:(?:is|was|were|are|has|have|had|got|gets|did|does|been|be|being|kee
 _LINK = r"(?P<link>(?:\s*(?:,|;|:|\(|–|—|-|->|=>|→|=|\.{3}|…|\.(?= ))\s*|\s+)(?:(?:and now|and|but|so|then|where|which|that|yet|when(?= (?:it|the \w+) \w+(?:ed|d)\b)|when(?= (?:it|the \w+) (?:fell|slid|broke|split|burst|tore)\b))\s+)*)"
 _LED = r"(?:(?:caus(?:es|ed)|result(?:s|ed) in|leads to|led to|gives|gave|means|meant|end(?:s|ed) in|produce[sd]|brought|saw|noticed|observed|found|let)(?: (?:it|them|a|an|some|the|to|visible|slight|severe|\w+ly)){0,3} )?"
 _IT_SLIPPED = re.compile(
-    rf"{_LINK}(?!(?:then )?drop (?:it|them|the)\b)(?:{_SUBJECT} )?{_AUX}{_LED}(?:{_SLIPPED}|let (?:it|them|the \w+) (?:go|slip|fall|drop|slide)|drop (?:it|them|the \w+)(?= *(?:$|[.,;!?]))|(?:slip|drop|fall|loss)(?=[.,;!]|$| of\b))(?: (?:it|them|out|off|away|down|through|from|the gripper|of the (?:gripper|fingers|grip)|again|already|last time|yesterday|occurred|was (?:seen|observed)|happened))*"
+    rf"{_LINK}(?!(?:then )?drop (?:it|them|the)\b)(?:{_SUBJECT} )?{_AUX}{_LED}(?:{_SLIPPED}|let (?:it|them|the \w+) (?:go|slip|fall|drop|slide)|drop (?:it|them|the \w+)(?= *(?:$|[.,;!?]))|(?:slip|drop|fall|loss)(?=[.,;!]|$| of\b))(?: (?:it|them|out|off|away|down|through|from|the gripper|of the (?:gripper|fingers|grip)|again|already|last time|yesterday|occurred|was (?:seen|observed)|happened))*(?!\w){NO_OTHER_FORCE}"
 )
 _IT_HURT = re.compile(
     rf"{_LINK}(?:(?:is|was|has|had) (?={_SUBJECT} ))?(?:{_SUBJECT} )?{_AUX}{_LED}(?:{_HURT}\b|(?:has been |was |were |is )?(?:found|seen|known|observed) to {_HURT}|(?:turn(?:s|ed)?|ma(?:kes|de)|went|goes) (?:(?:it|them|the \w+) )?(?:in)?to (?:jam|mush|pulp|juice|a mess|puree)|(?:would|will|could|might|may|can) (?:\w+ly )?(?:be )?(?:crush|squash|burst|bruise|break|crack|damage|hurt|ruin|mark|dent|split|destroy)\w*)"
-    rf"(?: (?:it|them|the (?:\w+ )?\w+|in|up|open|last time|yesterday))?"
+    rf"(?: (?:it|them|the (?:\w+ )?\w+|in|up|open|last time|yesterday))?(?!\w){NO_OTHER_FORCE}"
 )
 _BEEN = r"(?:is|was|are|were|has been|have been|had been|would be|will be|seems?|seemed|proved|proves|has proved|turned out|looked|appeared|felt|being)(?: to be)?"
 _OF_FORCE = r"\s*(?:of force|force|alone|by itself|last time|yesterday|on it|there|before)?,? ?(?:(?:and )?(?:it|that|this|which) )?"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from policies.instructions.quantities.force import Kind
+from policies.instructions.quantities.force import NO_OTHER_FORCE, Kind
 
 _FIRMER = r"(?:harder|firmer|tighter|stronger|heavier|larger|bigger|greater|higher)"
 _SOFTER = r"(?:softer|gentler|lighter|weaker|looser|lower|lesser|smaller|small|low|fewer)"
@@ -222,7 +222,7 @@ _TOO_MUCH = re.compile(
     rf"[^.;#]{{0,30}}\b(?:(?<!not )(?<!never )too (?:much|far|hard)|out of|no go|not ok\w*|pointless|useless|no (?:use|sense|point|need|good)|wast\w+|{_UNWANTED}|(?:not|never) (?:be )?(?:needed|necessary|required|called for|wise|good|wanted|used)|jam\b|juice\b|{_HARMS})"
 )
 _TOO_LITTLE = re.compile(
-    rf"(?:(?!\b(?:not|never|no|without)\b)[^.;#]){{0,20}}\b(?:will not do|not (?:allowed|acceptable|permitted|ok\w*|on)|forbidden|banned|not (?:enough|sufficient)|too little|insufficient|useless|will not hold|no good|not acceptable|{_SLIPS}|let it|(?:gets?|is|becomes?|feels) (?:loose|shaky|unstable|slippery))"
+    rf"(?:(?!\b(?:not|never|no|without)\b)[^.;#]){{0,20}}\b(?:will not do|not (?:allowed|acceptable|permitted|ok\w*|on)|forbidden|banned|not (?:enough|sufficient)|too little|insufficient|useless|will not hold|no good|not acceptable|{_SLIPS}\w*(?!\w){NO_OTHER_FORCE}|let it|(?:gets?|is|becomes?|feels) (?:loose|shaky|unstable|slippery))"
 )
 
 
