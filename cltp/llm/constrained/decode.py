@@ -11,8 +11,9 @@ left aside on the way. The model never decides itself whether to say a rival.
 
 A pass over many tokens rounds otherwise than one over few. A decision within ``CLOSE`` of another
 one is taken anew from a pass over prompt and reply so far, which is the same with and without a
-draft. So the draft never changes what is said. Passes that take their products in 16 bits round by
-more: after them the first decision within ``CLOSE_REDUCED`` has all tokens run through again in 32.
+draft. So the draft never changes what is said in 32 bits. Passes that take their products in 16
+round by more: after them the first decision within ``CLOSE_REDUCED`` has all tokens run through
+again.
 A model that is itself in 16 bits knows no better, and a draft can change its close decisions.
 """
 
@@ -45,7 +46,8 @@ which a decision is taken anew. Our choice: a hundred times what passes of other
 CLOSE_REDUCED = 0.03
 """The same after passes with products in bfloat16. Source: 6,200 decisions on 300 contacts: the
 difference of two logits moves by 0.009 in the median and by more than this in one of a hundred; in
-three of a thousand decisions it is itself less than this. `bench latency` compares what is said."""
+three of a thousand decisions it is itself less than this. Of 5,000 replies under drawn targets none
+differed from that of 32 bits without a draft, and 6 in 100 had tokens run through again."""
 
 DOUBT_BELOW = 0.6
 """Probability below which a text is said with its rival, where none is set for its slot. Our
