@@ -36,6 +36,9 @@ ON_ALL_CORES = ("train", "eval", "data", "bench", "calibrate gelsight-mini")
 """Commands with much to compute at once. The others compute in steps of milliseconds and keep to
 one thread: on a busy machine, threads that wait for each other took up to fifteen times as long."""
 
+TIME_THE_LOOP = ("bench drivers", "bench latency", "bench reflex", "bench serve", "bench soak")
+"""Benchmarks that time what the commands with one thread do, and so keep to one themselves."""
+
 HAVE_DEVICES = ("run", "replay", "calibrate", "doctor", "jog", "emulate", "view")
 """Commands with devices, which SIGTERM and SIGHUP end as Ctrl-C does, and which go on when nobody
 reads their output any more. The others have nothing to make safe: workers of a pool end with the
@@ -123,7 +126,7 @@ def _dispatch(command: str, argv: Sequence[str]) -> int:
         if command not in COMMANDS:
             raise UsageError(f"unknown command {command!r}; known: {', '.join(COMMANDS)}")
         check_packages()
-        if command not in ON_ALL_CORES and " ".join([command, *argv[:1]]) not in ON_ALL_CORES:
+        if not _on_all_cores(command, " ".join([command, *argv[:1]])):
             for variable in THREADS:  # read as numpy and torch are imported
                 os.environ.setdefault(variable, "1")
         module = importlib.import_module(f"tacgrasp.cli.{command}")
@@ -147,6 +150,12 @@ def _dispatch(command: str, argv: Sequence[str]) -> int:
             return 3
         _print_error(str(error))
         return code
+
+
+def _on_all_cores(command: str, with_its_name: str) -> bool:
+    if with_its_name in TIME_THE_LOOP:
+        return False
+    return command in ON_ALL_CORES or with_its_name in ON_ALL_CORES
 
 
 def _exit_code(error: Exception) -> int | None:

@@ -21,7 +21,6 @@ from rich.console import Console
 from policies import Policy
 from tacgrasp.base.errors import UsageError
 from tacgrasp.base.result_file import WRITTEN_BY
-from tacgrasp.base.worker_pool import one_thread
 from tacgrasp.benchmarks.figures import write_figures
 from tacgrasp.benchmarks.settings import SoakSettings
 from tacgrasp.config.layers import load
@@ -81,7 +80,6 @@ def run(settings: SoakSettings) -> bool:
     Raises:
         UsageError: An unknown policy or task, or figures of another soak in the file.
     """
-    one_thread()  # threads that wait for each other on busy cores cost eight times the time
     figures = _so_far(settings)
     config = load(settings.task)[0].model_copy(update={"policy": settings.policy})
     policy = make_policy(settings.policy, config)
