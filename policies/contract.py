@@ -164,7 +164,8 @@ def _take_words(draft: _Draft, request: Request, task: TaskTerms, *, is_own: boo
         raise RefusedError(f"it says two masses of one object: {numbers.masses.conflict}")
     if numbers.denied:
         raise RefusedError(
-            f"it says what not to hold with ({numbers.denied}), and names no other force"
+            f"it says what not to hold with ({numbers.denied}), or what was used once, and "
+            "names no other force"
         )
     if request.need and is_another(request.need.object, task.object):
         held = task.object.replace("_", " ")

@@ -102,18 +102,19 @@ _SETTING = re.compile(r"\b(force|grip|strength|pressure|power|squeeze) ?[:=] ?(?
 """'Strength: low'."""
 _LESSER_EVIL = re.compile(
     r"\b(?:rather|better|sooner|prefer\w*)\b(?: \w+){0,4}? "
-    r"(?:bruised|squashed|squished|damaged|dented|marked|hurt|dropped|lost|fallen|slipped) than "
+    r"(?:(?:bruise|squash|squish|damage|dent|mark|drop|lose)(?: (?:it|one|the \w+))?"
+    r"|(?:bruis|squash|squish|damag|dent|mark|dropp)ed|hurt|lost|fallen|slipped) than "
 )
 """'Better bruised than dropped' fears the drop."""
 _DENIED_AFTER = re.compile(
-    rf"^[^,;]{{0,40}}?\b(?:{FORBIDDEN_AFTER}|(?:is|are) (?:not|no longer|wrong|out\b|useless|forbidden|unnecessary|overrated|the wrong|a mistake|for)|"
+    rf"^(?:(?!\b(?:and|but|so|because|since|it|they|i|we|you)\b)[^,;]){{0,40}}?\b(?:{FORBIDDEN_AFTER}|(?:is|are) (?:not|no longer|wrong|out\b|useless|forbidden|unnecessary|overrated|the wrong|a mistake|for)|"
     r"(?:is|are) (?:no (?:use|good|help)|not)|will not (?:do|cut|work|help|suffice|be)|does not (?:work|help|cut|do)|never (?:works|helps)|(?:is|are) never)"
 )
 _COMPLAINT = re.compile(
     r"\b(?:grip|hold|grasp|squeeze|touch|force|pressure|you|fingers)(?: (?!what|which|that\b)\w+){0,1} (?:is|was|feels|seems|are|were|felt|looks)(?: (?!to|not)\w+){0,2} $"
 )
 _BREAK = re.compile(
-    rf"\b(?:and|so) (?=(?:please |just |then |only |really )?(?:{words.any_of('hold')}|be|use|go|ease|make|do|try|give|that|get|stay)\b)"
+    rf"\b(?:and|so) (?=(?:please |just |then |only |really )?(?:{words.any_of('hold')}|be|use|go|ease|make|mind|watch|do|try|give|that|get|stay)\b)"
 )
 _AS_BEFORE = re.compile(
     r"^\w* as (?:it |they |that )?(?:is |was |were )?(?:usual|normal|always|ever|before|last|the last|the previous|yesterday|"

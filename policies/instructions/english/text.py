@@ -135,6 +135,13 @@ _GOES_ON_WITH = frozenset(
 """Words that a line does not end with, and that none begins with, where a sentence ends there."""
 
 
+_ENDS_A_NUMBER = re.compile(r"\d\W*$")
+_BEGINS_NO_UNIT = re.compile(
+    r"\W*\d|(?!(?:[mkcdµu]?n|(?:milli|centi|deci|kilo)?newtons?|g|gf|grams?|kg|kgf|lbf?|ozf?|mm|cm|m|s|ms|seconds?|minutes?|per ?cent|times|of|to|or|and|at|(?:max|min)\w*(?!.{0,12}\d)|tops)\b)[a-z]"
+)
+_ENDS_A_BOUND = re.compile(r"\b(?:or|and) (?:less|below|under|more|above|over)$")
+
+
 def _in_sentences(text: str) -> str:
     """A text whose lines end as sentences do, where they may."""
     first, *lines = [line.strip() for line in text.split("\n") if line.strip()] or [""]
@@ -147,7 +154,12 @@ def _in_sentences(text: str) -> str:
             or not behind
             or behind[0] in _GOES_ON_WITH
         )
-        first += (" " if goes_on else ". ") + line
+        if _ENDS_A_NUMBER.search(first) and _BEGINS_NO_UNIT.match(line):
+            goes_on = False  # 'tray 4' above '900 mN' are two numbers
+        if _ENDS_A_BOUND.search(first):
+            goes_on = False
+        end = "; " if _ENDS_A_NUMBER.search(first) else ". "
+        first += (" " if goes_on else end) + line
     return first
 
 

@@ -85,6 +85,18 @@ _PAST = re.compile(
 )
 
 
+_TRIED = re.compile(
+    r"\b(?:i|we|he|she|they|someone|somebody)(?: (?:once|just|also|have|even|only))* (?:tried|used|took|applied|had)(?: (?:it|this|that|one|the \w+))?(?: (?:with|at))?(?: (?:about|around))?\s*$"
+)
+_THEN = re.compile(
+    r"\s*(?:yesterday|last (?:time|week|night|year|month)|earlier|the other day|this morning)\b"
+)
+_AS_THEN = re.compile(
+    r"\b(?:same|again|as (?:before|yesterday|last time|usual)|like (?:yesterday|last time|before)|repeat|still|that|too|also)\b"
+)
+"""Beside a force of another day: it is asked for today too."""
+
+
 class ReadForces(NamedTuple):
     """The forces of a text.
 
@@ -107,6 +119,7 @@ def read_forces(text: str) -> ReadForces:
     found: list[tuple[Force, bool]] = []  # a force, and whether it is of the past or denied
     denials: set[str] = set()  # words of the forces whose clause denies them
     rest, end = "", 0
+    told = ""  # words of a force that was used on another day
     became: Literal["least", "most"] | None = None  # what the force before is by its outcome
     for start, stop, ends, within_n in force_spans(text):
         left, right = text[end:start], text[stop:]
@@ -161,9 +174,15 @@ def read_forces(text: str) -> ReadForces:
             said_of_last = _WAS_WRONG.search(left) if found else None
             own = left[said_of_last.end() :] if said_of_last else left
             own = _CORRECTION.split(own)[-1]
-            before = _CONDITION.sub("", re.split(r"[.;,]\s|\s[-–—]\s|\bbut\b", own)[-1])
+            before = _CONDITION.sub(
+                "",
+                re.split(
+                    r"[.;,]\s|\s[-–—]\s|\(|\bbut\b|\band (?=(?:do not|never|not|no|do|at|with|min\w*|max\w*|below|under|above|over|stay|keep|limit|cap)\b|\s*$)",
+                    own,
+                )[-1],
+            )
             after = re.split(
-                r"[.;,]\s?|\s[-–—]\s|\b(?:instead of|rather than|because|since)\b",
+                r"[.;:,(]\s?|\s[-–—]\s|\band (?=(?:the|i|we|it|yesterday|last)\b)|\b(?:but|though|although|whereas|instead of|rather than|because|since)\b",
                 text[stop:],
                 maxsplit=1,
             )[0]
@@ -193,6 +212,8 @@ def read_forces(text: str) -> ReadForces:
                 is_denied = False
                 found = [(f, kept and (f.is_told or f.kind != "value")) for f, kept in found]
             kept = is_worked_out or not (_PAST.search(clause) or is_denied)
+            if _TRIED.search(before) and _THEN.match(after):
+                told = words
             is_taken_back = bool(_TAKEN_BACK.match(text[stop:]) or _IS_WRONG.match(text[stop:]))
             if may_be_denied and not is_worked_out:
                 is_taken_back |= bool(_AGAINST.search(left) or _REJECTED.match(text[stop:]))
@@ -209,6 +230,8 @@ def read_forces(text: str) -> ReadForces:
     if not kept_forces and (unwanted := [force for force, _ in found if force.words in denials]):
         return ReadForces([], [], unwanted[0].words, rest)
     dropped = [force for force, kept in found if not kept] if kept_forces else []
+    if not kept_forces and told and not _AS_THEN.search(text):
+        return ReadForces([], [], told, rest)  # 'don't crush it, and I tried 3 N yesterday'
     kept_forces = kept_forces or [force for force, _ in found]
     bounds = {force.value_n for force in kept_forces if force.kind != "value"}
     kept_forces = [f for f in kept_forces if f.kind != "value" or f.value_n not in bounds]

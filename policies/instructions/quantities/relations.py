@@ -10,9 +10,11 @@ _FIRMER = r"(?:harder|firmer|tighter|stronger|heavier|larger|bigger|greater|high
 _SOFTER = r"(?:softer|gentler|lighter|weaker|looser|lower|lesser|smaller|small|low|fewer)"
 _ABOUT = r"(?: ?(?:about|around|roughly|approximately|approx\.?|circa|ca\.?|some|something like|nearly|almost))"
 """What may stand between a bound and its force; it changes no bound."""
+_TOPS = r"(?:(?<=force )|(?<=pressure )|(?<=grip )|(?<=reading )|(?<=value )|(?<=load )|(?<=gauge )|(?<=sensor )|(?<=never )|(?<=not )|(?<=ever )|(?<=when it )|(?<=once it )|(?<=if it )|(?<=until it )|(?<=before it ))tops?"
+"""'When it tops 1 N'; 'hold it, tops 1 N' names a most."""
 _ABOVE = re.compile(
     rf"\b(?:over|above|beyond|past|exceed(?:s|ed|ing)?|surpass\w*|in excess of|north of|upwards? of|"
-    rf"pass(?:es|ing)?|top(?:s|ping)?|cross(?:es|ing)?|overshoot\w*|overstep\w*|(?:any |a \w+ |\w+ )?more(?: \w+)? than(?: (?:you|i|we) (?:would|do|did)(?: (?:hold|press|squeeze|use|with|at|for|on))*)?|{_FIRMER}(?: \w+)? than(?: you would)?(?: with| at)?)"
+    rf"pass(?:es|ing)?|topping|{_TOPS}|cross(?:es|ing)?|overshoot\w*|overstep\w*|(?:any |a \w+ |\w+ )?more(?: \w+)? than(?: (?:you|i|we) (?:would|do|did)(?: (?:hold|press|squeeze|use|with|at|for|on))*)?|{_FIRMER}(?: \w+)? than(?: you would)?(?: with| at)?)"
     rf"(?: the| a| of)?{_ABOUT}?\s*$|>{_ABOUT}?\s*$"
 )
 _BELOW = re.compile(
@@ -21,7 +23,7 @@ _BELOW = re.compile(
 )
 _MOST = re.compile(
     r"(?:\b(?:less|lower|smaller) than or equal to|\b(?:at|under|below) or (?:under|below|at)|\b(?:ends|tops out|finish\w*|finishes)(?: \w+){0,3} (?:at|before)|\b(?:stop\w*|halt\w*|quit\w*|ceas\w*|abort\w*|relent\w*|releas\w*|loosen\w*|(?:back\w*|eas\w+|lay\w*|leav\w+|cut\w*) off|let\w* (?:go|up)|giv\w+ (?:up|way)|pull\w* (?:up|back|out))(?: \w+){0,3} before|(?<!not )(?<!never )\b(?:stop|quit|halt|cease|leave off|cut (?:out|off)|finish|pull up|abort|bail(?: out)?|trip|fault|e-?stop|shut (?:down|off)|give up|let go|back off|alarm)(?:s|p?p?ing|ed)?(?: \w+ing)?(?: (?:it|in|down|up|on it|on this|dead|short|the (?:berry|strawberry|fruit|fingers|jaws|gripper)))? at|"
-    r"\bat (?:the )?(?:very |absolute )?most|\batmost|\b(?:allowed|allowable|permitted|permissible|admissible|tolerable|tolerated)(?: (?:only|just|force|forces|grip|load|value|level|is|are|of))*:?|\b(?:allows?|permits?|tolerates?)(?: us| me| you| only| just)*|\bthe (?:safe|right|low|lower|soft|gentle|near) side of|\bhard stop(?: at| of| is)?|\bup to|\b(?:as (?:hard|much|high|firm|far) as|no further than)|"
+    r"\bat (?:the )?(?:very |absolute )?most|\batmost|\b(?:allowed|allowable|permitted|permissible|admissible|tolerable|tolerated)(?: (?:only|just|force|forces|grip|load|value|level|is|are|of))*:?|\b(?:allows?|permits?|tolerates?)(?: us| me| you| only| just)*|\bthe (?:safe|right|low|lower|soft|gentle|near) side of|\btops:?|\bhard stop(?: at| of| is)?|\bup to|\b(?:as (?:hard|much|high|firm|far) as|no further than)|"
     r"\bmax(?:\.|imum|imal(?:ly)?|ed)?(?: \w+){0,3}?(?: of| is| at| to|:| =|=)?|"
     r"\blimit(?:s|ed|ing)?(?: (?!not\b|never\b)\w+){0,3}?(?: to| of| at| is|:| =|=)?|"
     r"(?<!bottle )(?<!screw )(?<!jar )(?<!pen )(?<!tube )(?<!vial )\bcap(?:s|ped|ping)?(?: \w+){0,3}?(?: at| to| of| is|:| =|=)?|\bceiling(?: of| is| at|:| =|=)?|"
@@ -61,9 +63,9 @@ _MOST_AFTER = re.compile(
     rf"\s*(?:-|–|,|:)?\s*(?:(?:(?:at|as|is|being) )?(?:an? |the |my |our |its )?{_STRICT}(?:max(?:imum|imal)?|peaks?|(?:upper )?(?:limit|ceiling|cap)(?! is\b))\b(?!\.?(?: (?:grip |clamp\w* |holding )?force)?(?: of| is|:| ?=)? ?\d)|tops\b|at (?:the )?(?:very |absolute )?most\b|"
     r"(?:or|and) (?:a (?:little|bit|touch) |slightly |even )?(?:less|below|under|lower|lighter|softer|gentler|smaller)\b(?! (?:no|any|all)\b)|(?: [a-z]+){1,3} at (?:the )?(?:very |absolute )?most\b|"
     r"[;,.]? ?(?:and )?(?:do not|never|not|but not) (?:\w+ ){0,2}(?:past|over|above|beyond|exceed|higher than) (?:it|that|this)\b|"
-    r"(?:,? ?(?:and|but|yet|though) )?(?:absolutely |(?:under|in|on|by|at) )?(?:no|not|never|without)(?! need)(?: \w+){0,2} (?:more|higher|harder|above|over|further|beyond|past)\b"
+    r"(?:(?:is|are|will be|should be) (?:plenty|enough|sufficient|fine|all right|ok(?:ay)?|good|right|perfect|ideal|adequate)\b)?(?:,? ?(?:and|but|yet|though) )?(?:,? )?(?:absolutely |(?:under|in|on|by|at) )?(?:no|not|never|without)(?! need)(?: \w+){0,2} (?:more|higher|harder|above|over|further|beyond|past)\b"
     r"(?!,? (?:and |or )?(?:no|not|nor|never)(?: \w+)? less)(?! (?:no|not) less)|"
-    r"(?:is|as|being|=)(?: (?!lower)\w+){0,3} (?:limit|max(?:imum)?|ceiling|cap|most|end of the line|last word)\b|(?:limit|ceiling|cap)\b(?!(?: force)?(?: of| is|:| ?=)? ?\d)|"
+    r"(?:is|as|being|=)(?: (?!lower)\w+){0,3} (?:limit|max(?:imum)?|ceiling|cap|most|end of the line|last word|top(?! (?:shelf|tray|drawer|layer|row|end|of)\b))\b|(?:limit|ceiling|cap)\b(?!(?: force)?(?: of| is|:| ?=)? ?\d)|"
     r"(?:(?:an?|the|my|your|as|is|as an?|as the) )*upper (?:\w+ )?(?:bound|limit|end)\b|"
     rf"(?:,? ?(?:and|but) (?:it|that|this) )?(?:{_BEEN} )?(?:already |way |far |just |clearly |evidently )*(?:(?:you (?:are|have|would be|were) )?(?:going|gone|squeezing|pressing|gripping) (?:way |much |far )?)?too (?:much|far|hard|firm|high|strong|tight|rough|heavy|great)|and under\b(?! (?:no|any|all)\b)|"
     rf"at (?:the )?(?:outside|utmost|very top|worst|extreme)\b|in the (?:very )?(?:worst|extreme) case\b|(?:for|as) (?:the|a|my|our) (?:hard |final |upper )*(?:stop|limit|cap|ceiling|max(?:imum)?)\b|(?:is )?(?:the )?(?:(?:most|maximum) )?(?<!is )(?:allowed|allowable|permitted|permissible|admissible|tolerated)\b|is (?:about |just |only )?as (?:high|far|hard|much|firm|tight|strong) as (?:i|you|we|it|they|the \w+|this)\b|to (?:play|work) with\b|(?:is|as) (?:the|my|our|a) (?:\w+ )?(?:roof|lid|wall|red line|end of it)\b|{_BEEN} (?:already |strictly |absolutely |still |simply )*{_UNWANTED}|"
@@ -182,7 +184,7 @@ NOT = re.compile(
     r"prevent\w*|keep(?: \w+){0,4} from|rather than|instead of|in place of|hardly|nobody)\b"
 )
 _BEGINS = re.compile(
-    r"[.;:,]\s|\bso\b|\bbut\b|\band (?=(?:do not|never|not|no)\b)|(?<= )(?=do not\b)|(?<=\bit )(?=never\b)"
+    r"[.;:,]\s|\s[–—-]\s|\(|\b(?:so|but|because|then)\b|\band (?=(?:do not|never|not|no)\b)|(?<= )(?=do not\b)|(?<=\bit )(?=never\b)"
 )
 _BEGINS_BELOW = re.compile(
     rf"{_BEGINS.pattern}|\b(?:it|them|this|that|one|(?:straw ?)?berry|fruit) and\b"
@@ -205,7 +207,7 @@ _RISE = re.compile(
     r"\b(?:bring|take|raise|get|ramp|crank|turn|increase|dial|build|work|go)(?: (?:it|this|that|the \w+))?\s*$"
 )
 _UNCONCERNED = re.compile(
-    r"\b(?:(?:do|does|did|would|should|need|must|can) not (?:really |much )?(?:care|mind|matter|worry|bother|know|want to know|understand|fuss)|no (?:matter|problem|worries|idea|rush|hurry|question)|not (?:sure|bothered|fussed|certain)|why not|whether or not|no(?= (?:not|never|no)\b)|not (?=(?:not|never|no)\b))"
+    r"\b(?:(?:do|does|did|would|should|need|must|can) not (?:really |much )?(?:care|mind|matter|worry|bother|know|want to know|understand|fuss)|(?:do not|never) (?:rush|hurry|worry|panic|stress|fret|dawdle|linger|wait)\b|no (?:matter|problem|worries|idea|rush|hurry|question)|not (?:sure|bothered|fussed|certain)|why not|whether or not|no(?= (?:not|never|no)\b)|not (?=(?:not|never|no)\b))"
 )
 """Denials that don't deny a bound: 'I do not care, just not above 1 N'."""
 _STOPS_SHORT = re.compile(
@@ -219,10 +221,10 @@ _SLIPPING = re.compile(
     rf"(?:^|[,;:]|\b(?:it|berry|fruit|one|this|thing|they|and|or|but|these|berries)) ?{_SLIPS}(?: \w+){{0,3}} (?:under|below|at|with|with less than)\s*$"
 )
 _TOO_MUCH = re.compile(
-    rf"[^.;#]{{0,30}}\b(?:(?<!not )(?<!never )too (?:much|far|hard)|out of|no go|not ok\w*|pointless|useless|no (?:use|sense|point|need|good)|wast\w+|{_UNWANTED}|(?:not|never) (?:be )?(?:needed|necessary|required|called for|wise|good|wanted|used)|jam\b|juice\b|{_HARMS})"
+    rf"[^.;#(]{{0,30}}\b(?:(?<!not )(?<!never )too (?:much|far|hard)|out of|no go|not ok\w*|pointless|useless|no (?:use|sense|point|need|good)|wast\w+|{_UNWANTED}|(?:not|never) (?:be )?(?:needed|necessary|required|called for|wise|good|wanted|used)|jam\b|juice\b|{_HARMS})"
 )
 _TOO_LITTLE = re.compile(
-    rf"(?:(?!\b(?:not|never|no|without)\b)[^.;#]){{0,20}}\b(?:will not do|not (?:allowed|acceptable|permitted|ok\w*|on)|forbidden|banned|not (?:enough|sufficient)|too little|insufficient|useless|will not hold|no good|not acceptable|{_SLIPS}\w*(?!\w){NO_OTHER_FORCE}|let it|(?:gets?|is|becomes?|feels) (?:loose|shaky|unstable|slippery))"
+    rf"(?:(?!\b(?:not|never|no|without)\b)[^.;#(]){{0,20}}\b(?:will not do|not (?:allowed|acceptable|permitted|ok\w*|on)|forbidden|banned|not (?:enough|sufficient)|too little|insufficient|useless|will not hold|no good|not acceptable|{_SLIPS}\w*(?!\w){NO_OTHER_FORCE}|let it|(?:gets?|is|becomes?|feels) (?:loose|shaky|unstable|slippery))"
 )
 
 
