@@ -13,13 +13,16 @@ import re
 LAST = "last"
 """What is doubted where a question names nothing: the answer before."""
 
+SHAPE = "What shape is it?"
+"""What is doubted where nothing was answered yet."""
+
 _NAMES = {
     "force": "What is the force?",
     "depth": "How deep is it?",
     "indentation": "How deep is it?",
     "contact area": "What is the contact area?",
     "area": "What is the contact area?",
-    "shape": "What shape is it?",
+    "shape": SHAPE,
     "texture": "What is the texture?",
     "position": "Where is it?",
 }
@@ -38,6 +41,8 @@ _OF_QUANTITY = re.compile(
     rf"{_LEAD}(?:(?:what(?: is|'s)|tell me|give me|how (?:large|big|high) is) )?(?:the |your )?"
     rf"{_SPREAD} (?:of|on|in|for) {_QUANTITY}{_END}|"
     rf"{_LEAD}how {_SURE} (?:are you (?:of|about|in) |is ){_QUANTITY.replace('<of>', '<b>')}{_END}|"
+    rf"{_LEAD}(?:are )?you (?:really |quite |absolutely |completely |so )*{_SURE} (?:of|about|in) "
+    rf"{_QUANTITY.replace('<of>', '<f>')}{_END}|"
     rf"{_LEAD}(?:(?:can|should|shall|may) (?:i|we|you) (?:trust|rely on|believe) |is (?=.*{_SURE}))"
     rf"{_QUANTITY.replace('<of>', '<e>')}(?: {_SURE}(?: enough)?)?{_END}|"
     rf"{_LEAD}(?:in )?what range (?:could|can|may|might|does) {_QUANTITY.replace('<of>', '<c>')} "

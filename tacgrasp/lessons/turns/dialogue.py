@@ -19,7 +19,7 @@ from tacgrasp.lessons.dialogue.facts import ACTIONS, REASONS
 from tacgrasp.lessons.dialogue.meaning import AnswerKind, Check, Meaning, Which, kind_of
 from tacgrasp.lessons.dialogue.scene import HOLD, LIFT, AskedScene
 from tacgrasp.lessons.read_question import ReadQuestion
-from tacgrasp.lessons.turns.certainty import LAST, doubted_by
+from tacgrasp.lessons.turns.certainty import LAST, SHAPE, doubted_by
 from tacgrasp.lessons.turns.follow_ups import asks_by_how_much
 from tacgrasp.lessons.turns.told import not_so, with_told
 from tacgrasp.lessons.turns.turn import Turn
@@ -141,6 +141,8 @@ class Dialogue:
     def _certainty(self, question: str) -> Said | None:
         """How sure the answer before is, or that for a quantity; None of other questions."""
         doubted = doubted_by(question)
+        if doubted == LAST and self._last is None:
+            doubted = SHAPE  # nothing was said yet: what the contact is first of all
         last = self._last if doubted == LAST else None
         if doubted and doubted != LAST:
             last = self._answered(doubted, understood_by_grammar(doubted), self._scene)

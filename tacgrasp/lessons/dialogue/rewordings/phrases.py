@@ -71,6 +71,18 @@ _PLAIN = (
                 r"pick)\b)", re.I), "unsafe to "),
     (re.compile(r"(?<= of )(?:your|my|our) (?=pad\b)", re.I), "the "),
     (re.compile(r"\bthe wh?ether\b", re.I), "the weather"),
+    (re.compile(r"^(?:and |so |but )*(?:what|which) (?:force )?(?:band|range|window) (?:are|do|is|"
+                r"did|must|should) (?:you|we|the (?:robot|gripper)|i) (?:aim|go|try|want|work|"
+                r"target|mean|plan|hope)\w*(?: (?:for|at|after|to (?:reach|hit|get|be in)|in|"
+                r"now))*(?=[?.! ]*$)", re.I), "what is the force band"),
+    (re.compile(r"^(?:and |so |but )*(?:what|which) force (?:are|do|is) (?:you|we|the (?:robot|"
+                r"gripper)) (?:aiming|going|trying|working|heading)(?: (?:for|at|after|towards?|"
+                r"to (?:reach|hit|get(?: to)?)))*(?=[?.! ]*$)", re.I), "what is the force band"),
+    (re.compile(r"^((?:in )?(?:just |only )?(?:one|a single) word[:,;–—-]+ *)?(?:what (?:do|can) "
+                r"you (?:feel|sense|touch)|what (?:is it|have you got|are you (?:feeling|holding|"
+                r"touching))|describe (?:it|the (?:contact|touch|object)|what you feel))"
+                r"(?(1)|[,:]? (?:in|using|with) (?:just |only )?(?:one|a single) word)"
+                r"(?=[?.! ]*$)", re.I), "shape in one word"),
 )  # fmt: skip
 
 

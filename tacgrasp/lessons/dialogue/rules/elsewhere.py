@@ -10,6 +10,7 @@
     Left finger or right finger?                    unknown finger.
     How far apart are the jaws?                     unknown opening.
     What if I opened the gripper by 1 mm?           unknown outcome.
+    Is it heavier than an egg?                      unknown trait.
 
 A time or a place beside a question, in a clause of its own, changes nothing: 'We met last week;
 how deep is it?'. A supposed force is calculated with, a supposed move of the gripper is not: how
@@ -78,6 +79,13 @@ _PAD_ITSELF = re.compile(
     r"skin)\b.*"
 )
 """'Is the gel worn?', which the touch does not tell."""
+_THAN_A_THING = re.compile(
+    r"\b(?:heavier|lighter|softer|harder|stiffer|tougher|firmer|stronger|weaker|warmer|colder|"
+    r"hotter|cooler|stickier|wetter|denser|squishier|riper|fresher|older) than (?:an?|my|your|his|"
+    r"her) (?!bit\b|little\b|few\b|lot\b|newton|gram|kilo|pound|ounce|limit|band|target|goal|"
+    r"light\b|slight\b|firm\b|medium\b|moderate\b|heavy\b|soft\b|hard\b)[a-z]+"
+)
+"""'Is it heavier than an egg?'; no 'press harder than a light touch'."""
 _CLAUSES = re.compile(r"[.,;:!?–—]+(?!\d)|\s-\s")
 _ASKING = re.compile(
     r"(?:(?:and|but|so|now|or|then|also|tell me|roughly) )*(?:by how|to what|with what|at what|"
@@ -138,7 +146,7 @@ def _subject(words: str) -> str:
         return ""
     if _HOW_LONG.match(words):
         return "future"
-    if _PAD_ITSELF.fullmatch(words):
+    if _PAD_ITSELF.fullmatch(words) or _compared_with_a_thing(words):
         return "trait"
     if _MORE_CONTACTS.search(words):
         return "surroundings"
@@ -159,6 +167,10 @@ def _subject(words: str) -> str:
         if is_of_something and _AGE.search(words) and not re.search(r"\d", words):
             return "age"
     return ""
+
+
+def _compared_with_a_thing(words: str) -> bool:
+    return bool(_THAN_A_THING.search(words)) and not re.search(r"\d", words)
 
 
 _FINGER = r"(?:(?:gripper |robot )?(?:finger|fingertip|jaw|arm)|gripper|sensor)"

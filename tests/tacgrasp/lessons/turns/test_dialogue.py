@@ -81,6 +81,8 @@ def test_how_sure_an_answer_is_is_told_by_its_interval_or_chances(talk):
     assert ask("What shape is it?", "How sure are you?").startswith("About 70 % sure: it is")
     assert ask("What range could the force have?").endswith(" N.")
     assert ask("How confident are you in the shape?").startswith("About 70 % sure: it is")
+    assert ask("Are you sure about the shape?").startswith("About 70 % sure: it is")
+    assert talk()("How sure are you?").startswith("About 70 % sure: it is")
     text = ask("How certain are you that it isn't a cube?")
     assert text == "About 70 % sure that the answer is yes."
 
