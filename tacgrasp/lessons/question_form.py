@@ -117,6 +117,18 @@ def without_topic(question: str) -> tuple[str, str]:
     return found["rest"], _ABOUT.get(topic, topic)
 
 
+_SENTENCES = re.compile(r"(?<=[.!?;:]) +(?=\S)")
+_OUTSIDE = re.compile(
+    r"n['’]t\b|\b(?:not|no|never|neither|nor|without|too|out\w*|off|wrong\w*|beyond|over\w*|under\w*|"
+    r"above|below|un\w+|in(?:correct|adequate|appropriate|sufficient)\w*|danger\w*|bad\w*|less|more|"
+    r"wait\w*|fail\w*|miss\w*|violat\w*|br(?:eak|oke)\w*|trouble|risk\w*|problem\w*|excess\w*|"
+    r"adjust\w*|chang\w*|correct\w*|fix\w*|lack\w*|false|lie|exceed\w*|leav\w*|left|stray\w*|"
+    r"deviat\w*|err\w*|alarm\w*|worr\w*|stop\w*|reject\w*|loos\w*|weak\w*|hard\w*|soft\w*|tight\w*)\b",
+    re.I,
+)
+"""Without such a word nobody asks whether the force is outside the band."""
+
+
 def is_unlikely(question: str, query: str) -> bool:
     """Whether a question's form speaks against a query.
 
@@ -129,6 +141,8 @@ def is_unlikely(question: str, query: str) -> bool:
         return True
     kinds = {part.strip().partition(" ")[0].rstrip(".") for part in parts}
     if "why" in kinds and not _ASKS_WHY.search(question):
+        return True
+    if "check not force within" in query and not _OUTSIDE.search(_SENTENCES.split(question)[-1]):
         return True
     is_choice = re.search(r"\bor\b", question, re.I) is not None
     if _ASKS_OPENLY.match(question) and not is_choice and not _VERB_INSIDE.search(question):

@@ -13,7 +13,8 @@ from __future__ import annotations
 import re
 
 _ALLOWED = re.compile(
-    r"\b(?:(?:our|my|your|the|its) (?:whole |full |total |force )*(?:allowance|quota|force budget)|"
+    r"\b(?:(?:our|my|your|the|its) (?:whole |full |total |force )*(?:allowance|quota|force budget|"
+    r"(?:permitted|allowed|allowable|permissible) (?:force|load|squeeze|grip))|"
     r"(?:the )?(?:most |maximum )?(?:what|that) (?:it|we|you|i|they|the (?:grip|gripper|robot))"
     r"(?:(?:['’](?:s|re|m))| is| are| am) (?:ever )?(?:allowed|permitted)"
     r"(?: to (?:use|apply|exert|press(?: with)?|squeeze(?: with)?|put on))?)(?! to\b)",
@@ -24,6 +25,14 @@ _MEANS_NUMBER = re.compile(
     r"(?:i\.? ?e\.?|that is|meaning|namely)[,:]? (?P<number>[\d.,]+ ?[^\s,?)]+)\)?",
     re.I,
 )
+_LIFTS = r"(?:lift|hoist|raise|pick|take)(?: (?:it|this|that|the \w+))?(?: up)?"
+
+
+def _end_of_band(found: re.Match[str]) -> str:
+    is_low = found["end"].lower() in ("lowest", "least", "smallest", "lightest", "minimum")
+    return f"the {'lower' if is_low else 'upper'} end of the band"
+
+
 _PLAIN = (
     (re.compile(r"\bratio (?:of )?(?P<a>[a-z]+) ?[:/] ?(?P<b>[a-z]+)\b", re.I),
      r"ratio of \g<a> to \g<b>"),
@@ -83,6 +92,51 @@ _PLAIN = (
                 r"touching))|describe (?:it|the (?:contact|touch|object)|what you feel))"
                 r"(?(1)|[,:]? (?:in|using|with) (?:just |only )?(?:one|a single) word)"
                 r"(?=[?.! ]*$)", re.I), "shape in one word"),
+    (re.compile(r"[,;:–—-]+ *(?:a )?(?:yes ?/ ?no|y ?/ ?n)(?=[?.! ]*$)", re.I), ", yes or no"),
+    (re.compile(r",? or (?:(?:are (?:we|you)|is it|am i) )?(?:just |only )*(?:grab|gripp?|hold|"
+                r"clos|clutch|squeez|touch|feel|press)\w* (?:on )?(?:at )?(?:just |only )*(?:thin "
+                r"air|empty air|empty space|air|nothing)(?: at all)?(?=[?.! ]*$)", re.I), ""),
+    (re.compile(rf"^(?P<ask>[^?]*{_LIFTS}[^?]*?),? or (?:should|shall|must|do|had) (?:i|we|you)"
+                r" (?:rather |better |still )*(?:wait|hold (?:off|on|back)|stop|leave it|not)"
+                r"(?: (?:a bit|a little|first|longer|still))*(?=[?.! ]*$)", re.I), r"\g<ask>"),
+    (re.compile(rf"^(?P<ask>(?:can|may|could|shall|should) (?:i|we|you) [^?]*{_LIFTS}[^?]*?),? "
+                r"without (?:(?:crush|squash|bruis|damag|break)\w+(?: it)? (?:or|and|nor) (?:dropp|"
+                r"los|slipp)\w+|(?:dropp|los|slipp)\w+(?: it)? (?:or|and|nor) (?:crush|squash|"
+                r"bruis|damag|break)\w+)(?: (?:it|the \w+|anything))?(?=[?.! ]*$)", re.I),
+     r"\g<ask>"),
+    (re.compile(rf"(?P<to>\bto {_LIFTS}) (?:it |this |that |the \w+ )?(?:off|from|up from|clear of)"
+                r" (?:the|its|our|this) \w+(?=[?.! ]*$)", re.I), r"\g<to> it"),
+    (re.compile(r"\b(?:firm|tight|strong|hard)(?:ly)? enough,? (?:and|but|yet|while|without being)"
+                r" (?:not )?too (?:firm|tight|strong|hard)(?:ly)?,?(?= (?:for|to)\b|[?.! ]*$)",
+                re.I), "right"),
+    (re.compile(r"\b(?P<verb>covers?|fills?|touch(?:es)?|tak(?:es?|ing) up|occup(?:y|ies)|"
+                r"covering|filling|is|are) (?=half (?:of )?(?:the|our|your|this) (?:pad|gel|"
+                r"sensor|fingertip)\b)", re.I), r"\g<verb> at least "),
+    (re.compile(r"\b(?:(?:the|what) )?(?P<end>lowest|least|smallest|lightest|minimum|"
+                r"highest|most|largest|greatest|maximum|hardest) (?:grip|force|squeeze) (?:that |"
+                r"which )?(?:the |my |our |your |this )?(?:(?:current|present|given|actual) )?"
+                r"(?:instruction|order|job|brief|wording)s? (?:will |would |can |does )?"
+                r"(?:puts? up with|allows?|"
+                r"accepts?|tolerates?|permits?|asks? for|wants?|needs?|stands?|calls? for)"
+                r"(?=[?.! ]*$)", re.I), _end_of_band),
+    (re.compile(r"\b(?:which|what) (?:square|cell|box|field|ninth|sector|zone|tile)(?:['’]s| is|"
+                r" does| did| has)(?: of (?:it|the \w+|those|these))? (?P<what>it|the \w+|this|"
+                r"that|my \w+) (?:in|at|on|lie(?: in)?|sit(?: in)?|touch|fall(?: in)?|be(?: in)?|"
+                r"land (?:in|on))(?=[?.! ]*$)", re.I), r"where is \g<what>"),
+    (re.compile(r"\b(?P<more>(?:plus|more|extra|another|added)\b[^?.]*?) (?:still )?(?:be|stay|"
+                r"remain|lie|keep) (?:still )?(?:with)?in(?:side)? (?:the|our|your|my) (?:force )?"
+                r"(?:limit|cap|maximum|max)\b", re.I), r"\g<more> be at most the limit"),
+    (re.compile(r"^(?:suppose|supposing|imagine|say|assume)(?: that)? (?:i|we|you) (?:asked? for|"
+                r"add(?:ed)?|used?|put on|gave|give|appl(?:y|ied)|wanted?) (?P<n>one|a|\d[\d.]*) "
+                r"(?P<x>extra |more |additional |further )?(?P<unit>newtons?|n|m?n|millinewtons?)"
+                r"(?(x)| more)(?: on top(?: of [^?.;,]+)?| than [^?.;,]+)?[.;,–—-]+ *(?:would|will|"
+                r"does) (?:that|it|this) (?:still )?(?:be|stay|remain|keep) (?:with)?in(?:side)? "
+                r"(?:the|our|your|my) (?:force )?(?:limit|cap|maximum|max)(?=[?.! ]*$)", re.I),
+     r"would \g<n> \g<unit> more be at most the limit"),
+    (re.compile(r"(?:(?<=, )|(?<=and ))where(?: exactly)? (?:it|the (?:thing|object|"
+                r"contact)|that)(?:['’]s| is) (?:pressing|sitting|touching|resting|"
+                r"lying|pushing|making contact)\b", re.I), "the position"),
+    (re.compile(r"\bgive me the lot[:,;–—-]+ *", re.I), "tell me "),
 )  # fmt: skip
 
 

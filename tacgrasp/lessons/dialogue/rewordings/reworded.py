@@ -65,6 +65,21 @@ _TELL_APART = re.compile(
     r"these(?: two)?|them|those(?: two)?) (?:is it|it is|do you (?:feel|have|hold))\b(?P<rest>.*)",
     re.I | re.S,
 )
+_THAT_NUMBER = re.compile(
+    r"[^?]*?(?<![\w.,])(?P<number>\d+(?:[.,]\d+)? ?[a-zµ%²]+)[^?\d]*[.;:!–—-] +"
+    r"(?:and |so |but )?(?P<asks>(?:are|is|do|does|am|have|has|would|will)\b[^?.;:]*"
+    r"\b(?:than|above|over|below|under|beyond|past|exceed(?:ing)?)) (?:that|it|this)"
+    r"(?P<rest>[?.! ]*)$",
+    re.I,
+)
+"""'A grape bursts at 5 N. Are you pressing harder than that?'"""
+_WHICH_ONE = re.compile(
+    r"[^?]*\b(?P<a>an? [a-z]+|(?<=between )[a-z]+) (?:or|and) (?P<b>(?:an? )?[a-z]+)[.;:,!–—-]+ +"
+    r"(?:so )?which (?:one |of (?:them|the two) )?(?:is it|did (?:you|we|i) (?:pick up|get|grab|"
+    r"take|choose)|(?:do|have) you (?:feel|have|hold|got|picked up))\b[?.! ]*",
+    re.I,
+)
+"""'There is a cube and a sphere; which one did you pick up?'"""
 _CALLED = re.compile(
     r"(?P<asks>.*\b(?P<a>[a-z]+) or (?P<b>[a-z]+)\b[^?]*)\?\s*(?:for (?:me|us),? )?(?:(?:i|we|"
     r"they)(?:['’]d| would)? (?:call|count|consider|treat|regard|class)(?: as)? )?(?:anything|"
@@ -208,6 +223,15 @@ def _told_apart(text: str) -> str:
     )
 
 
+def _which_one(text: str) -> str:
+    found = _WHICH_ONE.fullmatch(text)
+    return f"Is it {_with_article(found['a'])} or {_with_article(found['b'])}?" if found else ""
+
+
+def _with_article(name: str) -> str:
+    return name if " " in name else f"a {name}"
+
+
 def _called(text: str) -> str:
     """A choice between two words of which one is said to be whatever is under a number."""
     found = _CALLED.fullmatch(text)
@@ -250,6 +274,12 @@ def _from_that(text: str) -> str:
     return f"How far is {what} from {found['number']}?" if found and what else ""
 
 
+def _than_that(text: str) -> str:
+    """A comparison with the number told before."""
+    found = _THAT_NUMBER.fullmatch(text)
+    return f"{found['asks']} {found['number']}{found['rest']}" if found else ""
+
+
 def _forbidden(text: str) -> str:
     """Whether what is felt is past the number that is forbidden."""
     found = _FORBIDDEN.fullmatch(text)
@@ -272,6 +302,6 @@ def _to_do(text: str) -> str:
 
 
 _READERS: tuple[Callable[[str], str], ...] = (
-    _affirmed, _neither, _without_aside, _told_apart, _called, _graded, _forbidden, _from_that,
-    _which_too, _to_do, with_plain_phrases, _wanted,
+    _affirmed, _neither, _without_aside, _told_apart, _which_one, _called, _graded, _forbidden,
+    _from_that, _than_that, _which_too, _to_do, with_plain_phrases, _wanted,
 )  # fmt: skip

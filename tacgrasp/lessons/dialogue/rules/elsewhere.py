@@ -51,7 +51,8 @@ _SPAN = (
 _BEFORE = re.compile(
     rf"\b(?:{_SPAN} (?:ago|earlier|before (?:this|now))|yesterday|last (?:{_UNITS_OF_TIME}|time|"
     rf"{_WEEKDAY}|spring|summer|autumn|winter)|(?:earlier|before) (?:today|this {_UNITS_OF_TIME})|"
-    r"(?:the )?(?:previous|preceding|last) (?:grip|grasp|pick|touch|contact|object|item|part|piece|"
+    r"(?:the )?(?:previous|preceding|last) (?:grip|grasp|squeeze|hold|press|pick|touch|contact|"
+    r"object|item|part|piece|"
     r"one)|in the past|back then|when (?:it|the \w+) was new)\b"
 )
 _AFTER = re.compile(
@@ -100,6 +101,7 @@ _OTHER_FINGER = re.compile(
     r"may|"
     r"might|carries|helps|does))(?!'s (?:edge|side))"
 )
+_THUMB = re.compile(r"\b(?:the|your) (?:thumb|opposing digit)\b")
 _OF_BOTH = re.compile(
     r"\b(?:sum|both|together|total|altogether|combined|two fingers|same|equal\w*|identical|alike|"
     r"if|"
@@ -150,7 +152,8 @@ def _subject(words: str) -> str:
         return "trait"
     if _MORE_CONTACTS.search(words):
         return "surroundings"
-    if _OTHER_FINGER.search(words) and not _OF_BOTH.search(words):
+    is_of_one = _OTHER_FINGER.search(words) and not _OF_BOTH.search(words)
+    if is_of_one or _THUMB.search(words):
         return "elsewhere"
     for clause in map(str.strip, _CLAUSES.split(words)):
         if not _ASKING.match(clause) or re.search(r"\bif\b", words):
@@ -203,7 +206,7 @@ _MOVES = (
     r"(?:(?:re)?open(?:s|ed)?|clos(?:e|es|ed)|"
     r"lets? (?:it |this |that |the \w+ )?go(?! (?:of|by|to)\b)|"
     rf"(?:releas|rotat)(?:e|es|ed)|(?:drop(?:s|ped)?|tilt(?:s|ed)?|twist(?:s|ed)?|"
-    r"jerk(?:s|ed)?|bump(?:s|ed)?|knock(?:s|ed)?)|sh(?:ake|akes|ook)|sw(?:ing|ings|ung)|"
+    r"jerk(?:s|ed)?|bump(?:s|ed)?|knock(?:s|ed)?)|sh(?:ake|akes|ook)|(?:jiggl|wiggl|rattl)e(?:s|d)?|sw(?:ing|ings|ung)|"
     rf"turn(?:s|ed)? (?:it|this|that|the \w+) (?:over|around|round|upside down|on its side))"
     rf"(?! (?:the |my |our )?(?:{_AGREED}|eyes)\b)"
 )
