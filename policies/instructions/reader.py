@@ -73,6 +73,8 @@ _TURN = re.compile(
     + r"\b|\btoday\b|\bthis time\b"
 )
 """Where a report ends and a request begins."""
+_SO = re.compile(r",? (?:so|therefore|hence),? ")
+"""Before what is asked for, behind its reason: 'it is for a birthday cake, so be gentle'."""
 _REPORT = re.compile(
     r"^(?:yesterday|last (?:week|time|night|year)|earlier|once|the other (?:robot|day)|another robot|my colleague|he|she|they|i|we|someone)\b"
     r"(?: (?!would|want|need|like)\w+){0,4} (?:held|picked|was|were|did|used|took|grabbed|gripped|squeezed|lifted|had)\b"
@@ -249,6 +251,7 @@ def _nothing_asked(numbers: Quantities) -> str:
         return "it is a question, no request to hold anything"
     if numbers.masses.is_told:
         return ""
+    asked += [tail for s in asked if (tail := _SO.split(s)[-1]) != s]
     for sentence in map(without_own_work, asked):
         if _KEEP.search(sentence) or _THIS_WHILE.match(sentence):
             return ""
