@@ -106,6 +106,11 @@ _LESSER_EVIL = re.compile(
     r"|(?:bruis|squash|squish|damag|dent|mark|dropp)ed|hurt|lost|fallen|slipped) than "
 )
 """'Better bruised than dropped' fears the drop."""
+_THAN_TOO = re.compile(
+    r"\b(?:rather|better|sooner|prefer\w*)(?: \w+){0,4}? too (?:(?P<little>little|low|light|weak)|much|high|strong|hard)"
+    r"(?: (?:force|pressure|grip|squeeze|strength))? than too (?:much|high|strong|hard|little|low|light|weak)\b"
+)
+"""'Rather too little pressure than too much'."""
 _DENIED_AFTER = re.compile(
     rf"^(?:(?!\b(?:and|but|so|because|since|it|they|i|we|you)\b)[^,;]){{0,40}}?\b(?:{FORBIDDEN_AFTER}|(?:is|are) (?:not|no longer|wrong|out\b|useless|forbidden|unnecessary|overrated|the wrong|a mistake|for)|"
     r"(?:is|are) (?:no (?:use|good|help)|not)|will not (?:do|cut|work|help|suffice|be)|does not (?:work|help|cut|do)|never (?:works|helps)|(?:is|are) never)"
@@ -208,6 +213,7 @@ def _cues(sentence: str, asks: bool) -> Iterator[Cue]:
         return
     sentence = _NOT_YOU.sub(r"\1 ", without_neutral(sentence))
     sentence = _JUST_ENOUGH.sub(r"just enough\2", _MILDLY.sub(r"\1", sentence))
+    sentence = _THAN_TOO.sub(lambda said: " gently " if said["little"] else " firmly ", sentence)
     sentence = _NEVER_TOO.sub(r"\1 ", sentence)
     sentence = _RATHER.sub(r" \1 ", _LESSER_EVIL.sub(" not ", sentence))
     sentence = _too_for(_SETTING.sub(r"\1 ", sentence))

@@ -252,6 +252,7 @@ def _nothing_asked(numbers: Quantities) -> str:
     if numbers.masses.is_told:
         return ""
     asked += [tail for s in asked if (tail := _SO.split(s)[-1]) != s]
+    asked += [tail for s in asked if (tail := s.rpartition(";")[2]) != s and _asks_manner(tail)]
     for sentence in map(without_own_work, asked):
         if _KEEP.search(sentence) or _THIS_WHILE.match(sentence):
             return ""

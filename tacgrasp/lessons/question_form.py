@@ -119,14 +119,22 @@ def without_topic(question: str) -> tuple[str, str]:
 
 _SENTENCES = re.compile(r"(?<=[.!?;:]) +(?=\S)")
 _OUTSIDE = re.compile(
-    r"n['’]t\b|\b(?:not|no|never|neither|nor|without|too|out\w*|off|wrong\w*|beyond|over\w*|under\w*|"
-    r"above|below|un\w+|in(?:correct|adequate|appropriate|sufficient)\w*|danger\w*|bad\w*|less|more|"
+    r"n['’]t\b|\b(?:not|no|never|neither|nor|without|too|out\w*|off|wrong\w*|beyond|over\w*|"
+    r"under\w*|above|below|un\w+|in(?:correct|adequate|appropriate|sufficient)\w*|danger\w*|bad\w*|less|more|"
     r"wait\w*|fail\w*|miss\w*|violat\w*|br(?:eak|oke)\w*|trouble|risk\w*|problem\w*|excess\w*|"
     r"adjust\w*|chang\w*|correct\w*|fix\w*|lack\w*|false|lie|exceed\w*|leav\w*|left|stray\w*|"
     r"deviat\w*|err\w*|alarm\w*|worr\w*|stop\w*|reject\w*|loos\w*|weak\w*|hard\w*|soft\w*|tight\w*)\b",
     re.I,
 )
 """Without such a word nobody asks whether the force is outside the band."""
+_LIFT = re.compile(r"\b(?:lift|rais|hoist|pick)\w*", re.I)
+_NO_LIFT = re.compile(
+    r"n['’]t\b|\b(?:not|no|never|without|too|wrong\w*|un\w+|danger\w*|risk\w*|bad\w*|wait\w*|"
+    r"(?:hold|holding|back|call) off|outside|stop\w*|refrain\w*|forbid\w*|fail\w*|trouble|"
+    r"mistak\w*|fool\w*|hazard\w*)\b",
+    re.I,
+)
+"""Without such a word nobody asks whether it is wrong to lift."""
 
 
 def is_unlikely(question: str, query: str) -> bool:
@@ -142,8 +150,10 @@ def is_unlikely(question: str, query: str) -> bool:
     kinds = {part.strip().partition(" ")[0].rstrip(".") for part in parts}
     if "why" in kinds and not _ASKS_WHY.search(question):
         return True
-    if "check not force within" in query and not _OUTSIDE.search(_SENTENCES.split(question)[-1]):
-        return True
+    if "check not force within" in query:
+        last = _SENTENCES.split(question)[-1]
+        if not (_NO_LIFT if _LIFT.search(last) else _OUTSIDE).search(last):
+            return True
     is_choice = re.search(r"\bor\b", question, re.I) is not None
     if _ASKS_OPENLY.match(question) and not is_choice and not _VERB_INSIDE.search(question):
         return kinds == {"check"}

@@ -23,7 +23,7 @@ _BELOW = re.compile(
 )
 _MOST = re.compile(
     r"(?:\b(?:less|lower|smaller) than or equal to|\b(?:at|under|below) or (?:under|below|at)|\b(?:ends|tops out|finish\w*|finishes)(?: \w+){0,3} (?:at|before)|\b(?:stop\w*|halt\w*|quit\w*|ceas\w*|abort\w*|relent\w*|releas\w*|loosen\w*|(?:back\w*|eas\w+|lay\w*|leav\w+|cut\w*) off|let\w* (?:go|up)|giv\w+ (?:up|way)|pull\w* (?:up|back|out))(?: \w+){0,3} before|(?<!not )(?<!never )\b(?:stop|quit|halt|cease|leave off|cut (?:out|off)|finish|pull up|abort|bail(?: out)?|trip|fault|e-?stop|shut (?:down|off)|give up|let go|back off|alarm)(?:s|p?p?ing|ed)?(?: \w+ing)?(?: (?:it|in|down|up|on it|on this|dead|short|the (?:berry|strawberry|fruit|fingers|jaws|gripper)))? at|"
-    r"\bat (?:the )?(?:very |absolute )?most|\batmost|\b(?:allowed|allowable|permitted|permissible|admissible|tolerable|tolerated)(?: (?:only|just|force|forces|grip|load|value|level|is|are|of))*:?|\b(?:allows?|permits?|tolerates?)(?: us| me| you| only| just)*|\bthe (?:safe|right|low|lower|soft|gentle|near) side of|\btops:?|\bhard stop(?: at| of| is)?|\bup to|\b(?:as (?:hard|much|high|firm|far) as|no further than)|"
+    r"\bat (?:the )?(?:very |absolute )?most|\batmost|\b(?:allowed|allowable|permitted|permissible|admissible|tolerable|tolerated)(?: (?:only|just|force|forces|grip|load|value|level|is|are|of))*:?|\b(?:allows?|permits?|tolerates?)(?: us| me| you| only| just)*|\bthe (?:safe|right|low|lower|soft|gentle|near) side of|\btops:?|\bthe (?:absolute |very |outright |extreme )?most(?: \w+)? ?(?:is|=|:)|\b(?:threshold|level|mark) for (?:the |an? )?(?:emergency )?(?:stop|abort|alarm|trip|fault|shut-?down)\w*(?: is|:| =|=)?|\bhard stop(?: at| of| is)?|\bup to|\b(?:as (?:hard|much|high|firm|far) as|no further than)|"
     r"\bmax(?:\.|imum|imal(?:ly)?|ed)?(?: \w+){0,3}?(?: of| is| at| to|:| =|=)?|"
     r"\blimit(?:s|ed|ing)?(?: (?!not\b|never\b)\w+){0,3}?(?: to| of| at| is|:| =|=)?|"
     r"(?<!bottle )(?<!screw )(?<!jar )(?<!pen )(?<!tube )(?<!vial )\bcap(?:s|ped|ping)?(?: \w+){0,3}?(?: at| to| of| is|:| =|=)?|\bceiling(?: of| is| at|:| =|=)?|"
@@ -52,7 +52,7 @@ _OTHERS = r"(?!(?: it| them)?(?: than| of| is| to|:| =| at| with| from| above| o
 
 _HARMS = r"(?:g[ia]ves? (?:way|in)|broke|tore|left (?:a |its )?(?:mark|dent|bruise)|fail|yield|suffer|complain|leak|collapse|spoil|bruis|crush|squash|burst|break|split|crack|damag|mark|dent|pop|hurt|mush|ruin|spoil|tear|pulp)\w*\b"
 _SLIPS = r"(?:slips?|falls?|(?:drop|slide)(?:s|(?! (?:it|this|that|them|the|my|our)\b))|turn(?:s|(?! (?:it|this|that|them|the|my|our)\b))|gets? away|wobbles?)"
-_BEEN = r"(?:is|was|are|were|would be|will be|would have been|has been|had been|seems?|seemed|felt|proved|turned out)(?: to be)?"
+_BEEN = r"(?:is|was|are|were|(?:would|will|should)(?: already| surely| certainly| probably| simply| just)? be|would have been|has been|had been|seems?|seemed|felt|proved|turned out)(?: to be)?"
 _UNWANTED = (
     r"(?:forbidden|prohibited|banned|disallowed|unacceptable|excessive|overkill|unnecessary|needless|dangerous|harmful|risky|taboo|ruled out|out of (?:the question|bounds)|"
     r"off[ -]limits|an? no[ -]?(?:no|go)|not (?:allowed|permitted|acceptable|tolerated|tolerable|necessary|needed|required|wanted|safe|ok(?:ay)?|an option|advisable|recommended))"
@@ -65,7 +65,7 @@ _MOST_AFTER = re.compile(
     r"[;,.]? ?(?:and )?(?:do not|never|not|but not) (?:\w+ ){0,2}(?:past|over|above|beyond|exceed|higher than) (?:it|that|this)\b|"
     r"(?:(?:is|are|will be|should be) (?:plenty|enough|sufficient|fine|all right|ok(?:ay)?|good|right|perfect|ideal|adequate)\b)?(?:,? ?(?:and|but|yet|though) )?(?:,? )?(?:absolutely |(?:under|in|on|by|at) )?(?:no|not|never|without)(?! need)(?: \w+){0,2} (?:more|higher|harder|above|over|further|beyond|past)\b"
     r"(?!,? (?:and |or )?(?:no|not|nor|never)(?: \w+)? less)(?! (?:no|not) less)|"
-    r"(?:is|as|being|=)(?: (?!lower)\w+){0,3} (?:limit|max(?:imum)?|ceiling|cap|most|end of the line|last word|top(?! (?:shelf|tray|drawer|layer|row|end|of)\b))\b|(?:limit|ceiling|cap)\b(?!(?: force)?(?: of| is|:| ?=)? ?\d)|"
+    r"(?:is|as|being|=)(?: (?!lower)\w+){0,3} (?:limit|max(?:imum)?|ceiling|cap|most|end of the line|last word|where (?:it|we|you|i|that|the \w+) (?:stops?|ends?|draws?)|top(?! (?:shelf|tray|drawer|layer|row|end|of)\b))\b|(?:limit|ceiling|cap)\b(?!(?: force)?(?: of| is|:| ?=)? ?\d)|"
     r"(?:(?:an?|the|my|your|as|is|as an?|as the) )*upper (?:\w+ )?(?:bound|limit|end)\b|"
     rf"(?:,? ?(?:and|but) (?:it|that|this) )?(?:{_BEEN} )?(?:already |way |far |just |clearly |evidently )*(?:(?:you (?:are|have|would be|were) )?(?:going|gone|squeezing|pressing|gripping) (?:way |much |far )?)?too (?:much|far|hard|firm|high|strong|tight|rough|heavy|great)|and under\b(?! (?:no|any|all)\b)|"
     rf"at (?:the )?(?:outside|utmost|very top|worst|extreme)\b|in the (?:very )?(?:worst|extreme) case\b|(?:for|as) (?:the|a|my|our) (?:hard |final |upper )*(?:stop|limit|cap|ceiling|max(?:imum)?)\b|(?:is )?(?:the )?(?:(?:most|maximum) )?(?<!is )(?:allowed|allowable|permitted|permissible|admissible|tolerated)\b|is (?:about |just |only )?as (?:high|far|hard|much|firm|tight|strong) as (?:i|you|we|it|they|the \w+|this)\b|to (?:play|work) with\b|(?:is|as) (?:the|my|our|a) (?:\w+ )?(?:roof|lid|wall|red line|end of it)\b|{_BEEN} (?:already |strictly |absolutely |still |simply )*{_UNWANTED}|"

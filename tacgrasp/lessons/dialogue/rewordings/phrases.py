@@ -136,6 +136,32 @@ _PLAIN = (
     (re.compile(r"(?:(?<=, )|(?<=and ))where(?: exactly)? (?:it|the (?:thing|object|"
                 r"contact)|that)(?:['’]s| is) (?:pressing|sitting|touching|resting|"
                 r"lying|pushing|making contact)\b", re.I), "the position"),
+    (re.compile(r"\bnot yet (?:at|up to) (?=[\d.]|half|one|two|three|four|five|an? )", re.I),
+     "below "),
+    (re.compile(r"\b(?P<off>off[- ]?cent(?:re|er)(?:ed|d)?), not (?:quite )?(?:in|on|at) [^,?]+",
+                re.I), r"\g<off>"),
+    (re.compile(r",? (?:for|into|in) (?:my|the|our|your) (?:(?:log|lab|test|work|inspection|data|"
+                r"shift)[ -]?)?(?:sheet|book|report|notes?|file|records?|protocol|notebook)\b"
+                r"(?=[,.?! ])", re.I), ""),
+    (re.compile(r",? (?:bitte|por favor|s['’]il vous pla[iî]t|per favore)(?=[,.?! ]*$)", re.I),
+     " please"),
+    (re.compile(r"^(?P<is>is|are) (?:the |this |our |my )?(?:grip|grasp|hold|force) (?:good|"
+                r"fine|ok|okay|right) enough,? (?:so |that |so that |for (?:me|us) )"
+                rf"(?:we |i |you |one )?(?:can |could |may |to )?{_LIFTS}"
+                r"(?: the \w+)?(?=[?.! ]*$)", re.I),
+     "is it safe to lift it"),
+    (re.compile(r"^(?:so |and )?what (?:must|should|do|can|shall) (?:we|i|you) (?:have to |"
+                r"need to )?do,? (?:so|to (?:get|bring|have)|until) (?:that )?(?:the )?"
+                r"(?:grip )?force (?:to )?(?:comes?|gets?|is|goes|be)? ?(?:with|back |into |in)*(?:in|into|inside) "
+                r"(?:the |its )?(?:force )?(?:band|range|window)(?=[?.! ]*$)", re.I),
+     "To get into the band, tighten or loosen"),
+    (re.compile(rf"^(?:is|are) there (?:any|a|some) (?:good )?reasons?\b[^?]*\bnot to {_LIFTS}\b"
+                r"[^?]*(?=[?.! ]*$)", re.I), "is it unsafe to lift it"),
+    (re.compile(r"^(?:would|am|is|are) (?:someone|somebody|anyone|one|i|we|you)(?: be)? (?:wrong|"
+                r"mistaken) to (?:deny|dispute|doubt|reject) (?:that )?", re.I),
+     "is it true that "),
+    (re.compile(r"^is it impossible to (?:truthfully |honestly |correctly )?(?:say|claim|state) "
+                r"(?:that )?", re.I), "is it false that "),
     (re.compile(r"\bgive me the lot[:,;–—-]+ *", re.I), "tell me "),
 )  # fmt: skip
 

@@ -101,7 +101,15 @@ _OTHER_FINGER = re.compile(
     r"may|"
     r"might|carries|helps|does))(?!'s (?:edge|side))"
 )
-_THUMB = re.compile(r"\b(?:the|your) (?:thumb|opposing digit)\b")
+_THUMB = re.compile(
+    r"\b(?:the|your) (?:thumb|opposing digit)\b|"
+    r"\b(?:far|other|back|reverse|opposite|hidden) side of (?:the|this|that|your) "
+    r"(?:object|part|thing|fruit|berry|item|workpiece|piece)\b"
+)
+_WISHES = re.compile(
+    r"\bwhat (?:will|shall) (?:i|we|they|he|she|the (?:operator|user|boss)) (?:\w+ )?"
+    r"(?:ask|want|need|say|tell|request|order|bring|give)\b"
+)
 _OF_BOTH = re.compile(
     r"\b(?:sum|both|together|total|altogether|combined|two fingers|same|equal\w*|identical|alike|"
     r"if|"
@@ -146,7 +154,7 @@ def _subject(words: str) -> str:
         return "past"
     if is_off_topic(words):
         return ""
-    if _HOW_LONG.match(words):
+    if _HOW_LONG.match(words) or _WISHES.search(words):
         return "future"
     if _PAD_ITSELF.fullmatch(words) or _compared_with_a_thing(words):
         return "trait"
