@@ -153,7 +153,8 @@ _PLAIN = (
     (re.compile(r"^(?:so |and )?what (?:must|should|do|can|shall) (?:we|i|you) (?:have to |"
                 r"need to )?do,? (?:so|to (?:get|bring|have)|until) (?:that )?(?:the )?"
                 r"(?:grip )?force (?:to )?(?:comes?|gets?|is|goes|be)? ?(?:with|back |into |in)*"
-                r"(?:in|into|inside) (?:the |its )?(?:force )?(?:band|range|window)(?=[?.! ]*$)", re.I),
+                r"(?:in|into|inside) (?:the |its )?(?:force )?(?:band|range|window)"
+                r"(?=[?.! ]*$)", re.I),
      "To get into the band, tighten or loosen"),
     (re.compile(rf"^(?:is|are) there (?:any|a|some) (?:good )?reasons?\b[^?]*\bnot to {_LIFTS}\b"
                 r"[^?]*(?=[?.! ]*$)", re.I), "is it unsafe to lift it"),
