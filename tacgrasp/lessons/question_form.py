@@ -131,7 +131,8 @@ _LIFT = re.compile(r"\b(?:lift|rais|hoist|pick)\w*", re.I)
 _NO_LIFT = re.compile(
     r"n['’]t\b|\b(?:not|no|never|without|too|wrong\w*|un\w+|danger\w*|risk\w*|bad\w*|wait\w*|"
     r"(?:hold|holding|back|call) off|outside|stop\w*|refrain\w*|forbid\w*|fail\w*|trouble|"
-    r"mistak\w*|fool\w*|hazard\w*)\b",
+    r"mistak\w*|fool\w*|hazard\w*|against|object\w*|missing|lack\w*|premature\w*|early|prevent\w*|"
+    r"oppos\w*|veto\w*|block\w*|keep\w*|hinder\w*|rul\w+ out)\b",
     re.I,
 )
 """Without such a word nobody asks whether it is wrong to lift."""

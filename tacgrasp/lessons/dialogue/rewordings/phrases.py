@@ -156,6 +156,14 @@ _PLAIN = (
                 r"(?:in|into|inside) (?:the |its )?(?:force )?(?:band|range|window)"
                 r"(?=[?.! ]*$)", re.I),
      "To get into the band, tighten or loosen"),
+    (re.compile(r"^(?:(?:do|would) you (?:object to|oppose|veto|forbid|rule out)|(?:does|would|do) "
+                r"(?:the |this |our |my )?(?:force|grip|band|contract|limit) (?:forbid|prohibit|"
+                r"prevent|rule out|block|veto|speak against)) (?:a |the |my |our )?(?:lift|hoist|"
+                r"rais|pick)\w*(?: (?:it|the \w+|this|that))?(?: up)?(?: now)?(?=[?.! ]*$)", re.I),
+     "is it unsafe to lift it"),
+    (re.compile(r"\bneither too (?:weak|soft|loose|light)(?:ly)? nor too (?:strong|hard|firm|tight)"
+                r"(?:ly)?\b|\bneither too (?:strong|hard|firm|tight)(?:ly)? nor too (?:weak|soft|"
+                r"loose|light)(?:ly)?\b", re.I), "right"),
     (re.compile(rf"^(?:is|are) there (?:any|a|some) (?:good )?reasons?\b[^?]*\bnot to {_LIFTS}\b"
                 r"[^?]*(?=[?.! ]*$)", re.I), "is it unsafe to lift it"),
     (re.compile(r"^(?:would|am|is|are) (?:someone|somebody|anyone|one|i|we|you)(?: be)? (?:wrong|"
