@@ -28,6 +28,10 @@ _MEANS_NUMBER = re.compile(
 _LIFTS = r"(?:lift|hoist|raise|pick|take)(?: (?:it|this|that|the \w+))?(?: up)?"
 
 
+_GRIP = r"(?:the |this |our |my )?(?:grip(?:ping force)?|force|hold|grasp|squeeze|pressure)"
+_CHANGE = r"correct(?:ion|ing)|adjust(?:ment|ing)|chang(?:e|ing)|tuning|alteration|fixing"
+
+
 def _end_of_band(found: re.Match[str]) -> str:
     is_low = found["end"].lower() in ("lowest", "least", "smallest", "lightest", "minimum")
     return f"the {'lower' if is_low else 'upper'} end of the band"
@@ -161,6 +165,32 @@ _PLAIN = (
                 r"prevent|rule out|block|veto|speak against)) (?:a |the |my |our )?(?:lift|hoist|"
                 r"rais|pick)\w*(?: (?:it|the \w+|this|that))?(?: up)?(?: now)?(?=[?.! ]*$)", re.I),
      "is it unsafe to lift it"),
+    (re.compile(r"\bis (?:the|our|your|my) (?:force )?(?:limit|cap|ceiling|"
+                r"maximum) (?:still )?(?:intact|"
+                r"unbroken|observed|holding|kept|honou?red)(?=[?.! ]*$)", re.I),
+     "is the limit respected"),
+    (re.compile(r"\bis (?:the|our|your|my) (?:force )?(?:band|range|window) (?:still )?(?:kept|"
+                r"observed|"
+                r"respected|held|met|"
+                r"honou?red)(?=[?.! ]*$)", re.I), "is the force within the band"),
+    (re.compile(rf"^does {_GRIP} (?:still |now )?need no (?:{_CHANGE})(?=[?.! ]*$)|"
+                rf"^(?:should|can|may|must) {_GRIP} (?:stay|remain|be left|be kept) (?:as it is|"
+                rf"unchanged|"
+                r"the same|like this|like that|alone)(?=[?.! ]*$)|"
+                rf"^can (?:i|we|you) leave {_GRIP} (?:alone|as it is|unchanged|"
+                rf"like this)(?=[?.! ]*$)",
+                re.I), "is the force within the band"),
+    (re.compile(rf"^does {_GRIP} (?:still |now )?need (?:any |an? |"
+                rf"some )?(?:{_CHANGE})(?=[?.! ]*$)|"
+                rf"^(?:should|must) {_GRIP} (?:be )?(?:chang|adjust|correct|alter|fix)(?:e|"
+                rf"ed)?(?=[?.! ]*$)|"
+                rf"^(?:is|are) (?:an? |any |some )?(?:{_CHANGE})s? (?:of|to|in) {_GRIP} (?:needed|"
+                r"necessary|required|called for|due)(?=[?.! ]*$)", re.I),
+     "is the force outside the band"),
+    (re.compile(r"^would (?:another|one more|one further|a further) newton (?:still )?be (?:ok|"
+                r"okay|fine|all "
+                r"right|allowed|possible|within) (?:with|by|under|for) the (?:limit|cap|maximum)"
+                r"(?=[?.! ]*$)", re.I), "would 1 N more be at most the limit"),
     (re.compile(r"\bneither too (?:weak|soft|loose|light)(?:ly)? nor too (?:strong|hard|firm|tight)"
                 r"(?:ly)?\b|\bneither too (?:strong|hard|firm|tight)(?:ly)? nor too (?:weak|soft|"
                 r"loose|light)(?:ly)?\b", re.I), "right"),
