@@ -665,3 +665,63 @@ def test_a_supposed_load_is_told_by_the_force_that_it_needs():
 def test_what_may_be_done_is_not_asked_of_what_is(question):
     read = understood_by_grammar(question)
     assert read is None or "abs(" not in read.query
+
+
+@pytest.mark.parametrize(
+    ("question", "query"),
+    [
+        ("What band are you aiming for?", "amount band_low N; amount band_high N."),
+        ("What force are you going for?", "amount band_low N; amount band_high N."),
+        ("What do you feel, in one word?", "word shape in a word."),
+        ("Is it heavier than an egg?", "unknown trait."),
+        ("Object present, yes/no", "calculate contact."),
+        (
+            "Is the gel being pressed at all right now, or are we grabbing thin air?",
+            "check touched.",
+        ),
+        ("Surely it doesn't cover half the pad, does it?", "calculate area_percent >= 50."),
+        (
+            "A grape bursts at about 5 newtons, they say. Are you pressing harder than that?",
+            "check force > #1 N.",
+        ),
+        (
+            "Suppose I asked for one extra newton on top. Would that still be within the cap?",
+            "calculate force_n + 1 <= limit_n.",
+        ),
+        (
+            "What's the lowest grip that the current instruction will put up with?",
+            "amount band_low N.",
+        ),
+        ("Think of your fingertip as a grid. Which square's the object in?", "choice position."),
+        ("We've only two pieces, a cube and a sphere; which one did you pick up?", "choice shape."),
+        (
+            "What form it has, its texture, the force in newtons and where it's pressing.",
+            "word shape; word texture; amount force N; word position.",
+        ),
+        ("Can we take it up now without crushing or dropping it?", "check force within."),
+        ("Was your last squeeze stronger than this one?", "unknown past."),
+        ("Does the thumb on the far side get the same pressure as you?", "unknown elsewhere."),
+        ("Is the force not yet at two newtons?", "check force < #1 N."),
+        ("Is the contact off-centre, not in the middle zone?", "check not position centered."),
+        (
+            "Is there any reason, from the band, not to raise the object this instant?",
+            "check not force within.",
+        ),
+        ("Would someone be mistaken to deny that this is a cube?", "check shape cuboid."),
+        (
+            "Is it impossible to truthfully say you are not below 5 newtons?",
+            "calculate not (force_n >= 5).",
+        ),
+        ("What will I ask you to pick up next?", "unknown future."),
+        ("Do you object to lifting?", "check not force within."),
+        ("Does the force forbid a lift?", "check not force within."),
+        ("Is the grip neither too weak nor too strong for lifting?", "check force within."),
+        ("Is the limit intact?", "check force under."),
+        ("Does the force need correction?", "check not force within."),
+        ("Does the grip need no correction?", "check force within."),
+        ("Should the grip stay as it is?", "check force within."),
+        ("Is the band kept?", "check force within."),
+    ],
+)
+def test_a_question_in_other_words_asks_the_same(question, query):
+    assert understood_by_grammar(question).query == query
