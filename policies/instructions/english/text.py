@@ -73,6 +73,7 @@ _CONTRACTIONS = (
 )  # fmt: skip
 
 _TYPED = (
+    (r"\blest (?=(?:it|the|this|that|he|she|they)\b)", "for fear "),
     (r"(?<=\d)[·٫](?=\d)", "."),  # decimal points of other keyboards
     (r"(?<=[a-z]{2}),(?=\.?\d)", ", "),
     (r"(?<=\d)\s*(?:pct|p\.c\.)(?![a-z])", " %"),
@@ -163,6 +164,13 @@ def _in_sentences(text: str) -> str:
     return first
 
 
+_REMARK = re.compile(
+    r",? (?:and|but) (?=(?:(?:it|this|(?:this|the) (?:one|berry|strawberry|fruit)) (?:weighs|was picked|(?:is|was) (?:very |quite |so |a bit )*"
+    r"(?:ripe|wet|big|small|heavy|light|large|red|fresh|slippery|dry|cold))|i (?:will|am going to) (?:watch|be here|be watching)|we have \d)\b)"
+)
+"""Before a remark that is a sentence of its own: '... and it is ripe'."""
+
+
 def plain(text: str) -> str:
     """Lower case, straight quotes, contractions written out, single spaces."""
     text = re.sub(f"[{_MARKS}]", "'", text)  # before compatible forms: '´' would become a space
@@ -175,7 +183,8 @@ def plain(text: str) -> str:
     for pattern, replacement in (*_TYPED, *_CONTRACTIONS, *_FOREIGN_BOUNDS):
         text = re.sub(pattern, replacement, text)
     text = re.sub(r"\banything (?:but|other than|except)\b", "not", text)
-    return _ASIDE.sub(r"\1", " ".join(text.split()))
+    text = _REMARK.sub(". ", " ".join(text.split()))
+    return _ASIDE.sub(r"\1", text)
 
 
 def _mixed(match: re.Match[str]) -> str:

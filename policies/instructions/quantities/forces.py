@@ -80,7 +80,7 @@ _REJECTED = re.compile(
 _LESS = re.compile(r"\b(?:less|short|shy|fewer|lower|softer|gentler|below|under|beneath)\b")
 """In the words of a least force: 'not less than 1 N' has its denial in them."""
 _PAST = re.compile(
-    r"\b(?:last (?:time|one|run|trial|try|berry)|yesterday|previous(?:ly)?|before|earlier|used to|was|were|had|"
+    r"\b(?:last (?:time|one|run|trial|try|berry)|yesterday|previous(?:ly)?|before(?! (?:you|we|i|it|the|they|that|[a-z]+ing)\b)|earlier|used to|was|were|had|"
     r"slipped|slid|crushed|squashed|bruised|dropped|tried|went|did)\b"
 )
 
@@ -177,7 +177,7 @@ def read_forces(text: str) -> ReadForces:
             before = _CONDITION.sub(
                 "",
                 re.split(
-                    r"[.;,]\s|\s[-–—]\s|\(|\bbut\b|\band (?=(?:do not|never|not|no|do|at|with|min\w*|max\w*|below|under|above|over|stay|keep|limit|cap)\b|\s*$)",
+                    r"[.;,]\s|\s[-–—]\s|\(|\bbut\b|\band(?=\s*$| (?:do not|never|not|no|do|at|with|min\w*|max\w*|below|under|above|over|stay|keep|limit|cap)\b)",
                     own,
                 )[-1],
             )
