@@ -119,8 +119,8 @@ def without_topic(question: str) -> tuple[str, str]:
 
 _SENTENCES = re.compile(r"(?<=[.!?;:]) +(?=\S)")
 _OUTSIDE = re.compile(
-    r"n['’]t\b|\b(?:not|no|never|neither|nor|without|too|out\w*|off|wrong\w*|beyond|over\w*|"
-    r"under\w*|above|below|un\w+|in(?:correct|adequate|appropriate|sufficient)\w*|danger\w*|bad\w*|less|more|"
+    r"n['’]t\b|\b(?:not|no|never|neither|nor|without|too|outside|out of|outwith|off|wrong\w*|"
+    r"beyond|over\w*|under\w*|above|below|un\w+|in(?:correct|adequate|appropriate|sufficient)\w*|danger\w*|bad\w*|less|more|"
     r"wait\w*|fail\w*|miss\w*|violat\w*|br(?:eak|oke)\w*|trouble|risk\w*|problem\w*|excess\w*|"
     r"adjust\w*|chang\w*|correct\w*|fix\w*|lack\w*|false|lie|exceed\w*|leav\w*|left|stray\w*|"
     r"deviat\w*|err\w*|alarm\w*|worr\w*|stop\w*|reject\w*|loos\w*|weak\w*|hard\w*|soft\w*|tight\w*)\b",

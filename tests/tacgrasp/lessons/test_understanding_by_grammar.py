@@ -721,6 +721,24 @@ def test_what_may_be_done_is_not_asked_of_what_is(question):
         ("Does the grip need no correction?", "check force within."),
         ("Should the grip stay as it is?", "check force within."),
         ("Is the band kept?", "check force within."),
+        ("Cross or star, what d'you reckon?", "choice shape."),
+        ("Do you have the cylinder one or the hexagon one?", "choice shape."),
+        ("Ring/triangle?", "choice shape."),
+        ("Help me decide between bumpy and ridged for this one.", "choice texture."),
+        ("What've we got, dots or ridges? Say dotted or ridged.", "choice texture."),
+        ("Margin to limit, N?", "amount headroom N."),
+        (
+            "I suspect under a twentieth of the gel is being used. Is that so?",
+            "calculate area_percent < 5.",
+        ),
+        ("Up to what force does the target range go?", "amount band_high N."),
+        (
+            "Would one be right to say that the contact fails to cover as much as 12 %?",
+            "calculate area_percent < 12.",
+        ),
+        ("The load cell on the other finger just died. What force do you read?", "amount force N."),
+        ("What shape was the object you held before this one?", "unknown past."),
+        ("Does the object like being held?", "unknown trait."),
     ],
 )
 def test_a_question_in_other_words_asks_the_same(question, query):

@@ -98,6 +98,7 @@ _PLAIN = (
                 r"(?=[?.! ]*$)", re.I), "shape in one word"),
     (re.compile(r"[,;:–—-]+ *(?:a )?(?:yes ?/ ?no|y ?/ ?n)(?=[?.! ]*$)", re.I), ", yes or no"),
     (re.compile(r",? or (?:(?:are (?:we|you)|is it|am i) )?(?:just |only )*(?:grab|gripp?|hold|"
+                r"poke?|paw|snatch|"
                 r"clos|clutch|squeez|touch|feel|press)\w* (?:on )?(?:at )?(?:just |only )*(?:thin "
                 r"air|empty air|empty space|air|nothing)(?: at all)?(?=[?.! ]*$)", re.I), ""),
     (re.compile(rf"^(?P<ask>[^?]*{_LIFTS}[^?]*?),? or (?:should|shall|must|do|had) (?:i|we|you)"
@@ -201,6 +202,65 @@ _PLAIN = (
      "is it true that "),
     (re.compile(r"^is it impossible to (?:truthfully |honestly |correctly )?(?:say|claim|state) "
                 r"(?:that )?", re.I), "is it false that "),
+    (re.compile(r"^(?P<a>(?!y\b|yes\b|left\b)[a-z]{4,}) ?(?:vs\.?|versus|"
+                r"/) ?(?P<b>[a-z]{4,})(?=[?.! ]*$)",
+                re.I), r"\g<a> or \g<b>"),
+    (re.compile(r"^(?P<a>[a-z]+ or [a-z]+)[,;:–—-]+ *(?:what|which) (?:do|d['’]) ?(?:you|"
+                r"ya) (?:think|"
+                r"reckon|say|guess)(?=[?.! ]*$)", re.I), r"\g<a>"),
+    (re.compile(r"^(?:.*[.!] )?(?:do|did|have) (?:you|we|i) (?:have|hold|got|feel|get|pick up) the (?P<a>[a-z]+) one or the (?P<b>[a-z]+) one(?=[?.! ]*$)", re.I),
+     r"\g<a> or \g<b>"),
+    (re.compile(r"^(?:please )?(?:help me |i must |i have to |i need to )(?:decide|choose) between "
+                r"(?P<a>[a-z]+) and (?P<b>[a-z]+)(?: for this(?: one)?| here)?(?=[?.! ]*$)", re.I),
+     r"\g<a> or \g<b>"),
+    (re.compile(r"^[^?]+\bor\b[^?]+\? (?:just )?say (?P<a>[a-z]+) or (?P<b>[a-z]+)(?=[?.! ]*$)",
+                re.I), r"\g<a> or \g<b>"),
+    (re.compile(r"(?P<a>feels?|seems?|looks?) (?P<b>[a-z]+) to (?:you|your finger),? or ", re.I),
+     r"\g<a> \g<b> or "),
+    (re.compile(r"^(?:the |what(?:['’]s| is) the )?next grip (?:action|move|step)(?=[?.! ]*$)|"
+                r"^what (?:do|should|must|will) (?:you|we|i) do with (?:the|your|"
+                r"our) grip(?: now| next)?"
+                r"(?=[?.! ]*$)", re.I), "To get into the band, tighten or loosen"),
+    (re.compile(r"^(?:the )?(?:margin|headroom|distance|gap|reserve|room)(?: left)? (?:to|below|"
+                r"under|"
+                r"until) (?:the )?(?:hard |force )?limit,? (?:in )?(?P<unit>m?N|newtons?|"
+                r"millinewtons?)"
+                r"(?=[?.! ]*$)", re.I), r"how many \g<unit> are left to the limit"),
+    (re.compile(r"^does (?P<what>the (?:difference|gap|margin|distance)\b[^?]*?) (?:come|amount|"
+                r"add up) "
+                r"to ", re.I), r"is \g<what> "),
+    (re.compile(r"\bout of (?:a |one )hundred,? how much\b", re.I), "what percentage"),
+    (re.compile(r"\bwhich size (?:class|category|bin) (?:does |is )?(?:the|this|"
+                r"our) (?:footprint|patch|"
+                r"contact|imprint|spot) (?:belongs? (?:to|in)|falls? in(?:to)?|in)\b", re.I),
+     "what is the area class"),
+    (re.compile(r"^(?:i (?:suspect|think|believe|guess|reckon|assume|bet|suppose)|my guess is|"
+                r"they say|"
+                r"somebody (?:says|claims|"
+                r"thinks))(?: that)? (?P<stated>[^.?!;]*[^.?!;\d])[.;!,]+ (?:is (?:that|"
+                r"this|it) (?:so|right|true|correct|the case)|am i right|"
+                r"do you agree)(?=[?.! ]*$)", re.I),
+     r"is it true that \g<stated>"),
+    (re.compile(r"\bthe (?:force )?(?:interval|range|band|window) (?:which |that )?(?:the |my |"
+                r"our |your )?"
+                r"(?:(?:present|current|given) )?(?:command|instruction|order|"
+                r"contract)s? (?:prescribes?|"
+                r"asks? for|demands?|requires?|wants?|sets?|calls? for)\b", re.I), "the band"),
+    (re.compile(r"\bthe (?:force|value|line|mark) (?:that|which)(?:,[^,]*,)? (?:must|may|can|"
+                r"should) (?:never|"
+                r"not|at no time|under no circumstances) be (?:passed|surpassed|exceeded|"
+                r"crossed)\b", re.I),
+     "the limit"),
+    (re.compile(r"\bup to (?:what|which) force does (?:the|our|my) (?:target |force |"
+                r"wanted )?(?:range|band|"
+                r"window) (?:go|reach|extend)\b", re.I), "what is the upper end of the band"),
+    (re.compile(r"\bfails? to (?:occupy|cover|fill|touch) (?:as much as |so much as |"
+                r"even )?", re.I),
+     "covers less than "),
+    (re.compile(r"^would (?:one|i|we) be (?:right|correct|justified) (?:in|to) (?:assert|claim|"
+                r"say|stat)"
+                r"(?:ing|e)? that ", re.I), "is it true that "),
+    (re.compile(r"\bwhat(?:['’]s| is) the name of the person\b[^?]*", re.I), "who owns it"),
     (re.compile(r"\bgive me the lot[:,;–—-]+ *", re.I), "tell me "),
 )  # fmt: skip
 

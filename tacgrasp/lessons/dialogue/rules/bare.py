@@ -48,6 +48,7 @@ _SHARES: Mapping[str, float] = {
     r"(?:a |one )?quarter": 25.0, r"three quarters": 75.0, r"(?:a |one )?fifth": 20.0,
     r"(?:a |one "
     r")?tenth": 10.0, r"nine tenths": 90.0, r"four fifths": 80.0, r"(?:an? |one )?eighth": 12.5,
+    r"(?:a |one )?twentieth": 5.0,
 }  # fmt: skip
 _SHARE = rf"(?P<share>#(?: percent| per cent)?|{'|'.join(_SHARES)})"
 _SIGNS = {

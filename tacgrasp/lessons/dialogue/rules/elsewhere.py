@@ -30,7 +30,7 @@ from tacgrasp.lessons.dialogue.meaning import Meaning
 from tacgrasp.lessons.dialogue.query import read_query
 
 _HISTORY = re.compile(
-    r"\bat any (?:time|point|moment|stage)\b|\bat no (?:time|point|moment)\b|"
+    r"\bat any (?:time|point|moment|stage)\b|(?<!must )(?<!may )\bat no (?:time|point|moment)\b|"
     r"\b(?:during|throughout) (?:the|this|your|our|my) (?:whole |entire |full |last |past )?"
     r"(?:shift|day|night|week|month|cycle|run|session|morning|afternoon|hour)\b|"
     r"\b(?:the|this) (?:whole|entire) (?:time|shift|day|run|cycle|job)\b|\ball along\b|"
@@ -53,7 +53,7 @@ _BEFORE = re.compile(
     rf"{_WEEKDAY}|spring|summer|autumn|winter)|(?:earlier|before) (?:today|this {_UNITS_OF_TIME})|"
     r"(?:the )?(?:previous|preceding|last) (?:grip|grasp|squeeze|hold|press|pick|touch|contact|"
     r"object|item|part|piece|"
-    r"one)|in the past|back then|when (?:it|the \w+) was new)\b"
+    r"one)|in the past|back then|before this one|when (?:it|the \w+) was new)\b"
 )
 _AFTER = re.compile(
     rf"\b(?:{_SPAN} (?:from now|from today|later|hence)|(?:in|within|after) (?:another )?{_SPAN}|"
@@ -106,6 +106,13 @@ _THUMB = re.compile(
     r"\b(?:far|other|back|reverse|opposite|hidden) side of (?:the|this|that|your) "
     r"(?:object|part|thing|fruit|berry|item|workpiece|piece)\b"
 )
+_LAST_SENTENCE = re.compile(r"(?<=[.!]) (?=\S+ \S+ \S)")
+_FEELINGS = re.compile(
+    r"\b(?:is|does|do|are|was) (?:it|he|she|they|the \w+|this|that)\b[^?]*\b(?:sad|happy|afraid|"
+    r"scared|angry|lonely|alive|in pain|suffering|suffer|enjoy\w*|like being|feel pain|"
+    r"mind being|love being)\b"
+)
+"""'Is it sad?', 'does it like being held?'"""
 _WISHES = re.compile(
     r"\bwhat (?:will|shall) (?:i|we|they|he|she|the (?:operator|user|boss)) (?:\w+ )?"
     r"(?:ask|want|need|say|tell|request|order|bring|give)\b"
@@ -156,11 +163,13 @@ def _subject(words: str) -> str:
         return ""
     if _HOW_LONG.match(words) or _WISHES.search(words):
         return "future"
-    if _PAD_ITSELF.fullmatch(words) or _compared_with_a_thing(words):
+    has_feelings = _FEELINGS.search(words) is not None
+    if has_feelings or _PAD_ITSELF.fullmatch(words) or _compared_with_a_thing(words):
         return "trait"
     if _MORE_CONTACTS.search(words):
         return "surroundings"
-    is_of_one = _OTHER_FINGER.search(words) and not _OF_BOTH.search(words)
+    asked = _LAST_SENTENCE.split(words)[-1]
+    is_of_one = _OTHER_FINGER.search(asked) and not _OF_BOTH.search(words)
     if is_of_one or _THUMB.search(words):
         return "elsewhere"
     for clause in map(str.strip, _CLAUSES.split(words)):

@@ -72,7 +72,7 @@ def test_one_frame_tells_nothing_of_before(question):
         ("Has the never-exceed force been exceeded?", "calculate force_n > limit_n."),
         (
             "Have we gone past the force that must never be passed?",
-            "calculate force_n > limit_n.",
+            "check force over.",
         ),
     ],
 )
