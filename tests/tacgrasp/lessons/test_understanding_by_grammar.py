@@ -734,7 +734,7 @@ def test_what_may_be_done_is_not_asked_of_what_is(question):
         ("Up to what force does the target range go?", "amount band_high N."),
         (
             "Would one be right to say that the contact fails to cover as much as 12 %?",
-            "calculate area_percent < 12.",
+            "check area < #1 %.",
         ),
         ("The load cell on the other finger just died. What force do you read?", "amount force N."),
         ("What shape was the object you held before this one?", "unknown past."),
