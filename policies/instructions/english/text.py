@@ -73,6 +73,12 @@ _CONTRACTIONS = (
 )  # fmt: skip
 
 _TYPED = (
+    (r"\b(?:un)?till? s?he(?= )", "until it"),
+    (r"(?<=[a-z])_(?=[a-z])", " "),
+    (
+        r"\b(for [a-z ]{1,30}?(?:the|our|my) (limit|maximum|max|cap|ceiling) is [^.;]{1,20}[.;,]+ (?:(?:and|but) )?for (?:this|the|our|my|these) [a-z ]{1,20}?)(?:it|that) is\b",
+        r"\1the \2 is",
+    ),
     (r"\blest (?=(?:it|the|this|that|he|she|they)\b)", "for fear "),
     (r"(?<=\d)[·٫](?=\d)", "."),  # decimal points of other keyboards
     (r"(?<=[a-z]{2}),(?=\.?\d)", ", "),

@@ -135,6 +135,16 @@ _LEFT_OVER = (
     ),
 )
 """'Hold it at 1 N, redline 1.1': a fraction anywhere, a whole number after one unknown word."""
+_UNSAID = (
+    NumberPattern(
+        rf"(?:\b(?<!not )(?:with|to|by|about|around|roughly|use|apply|grip|force|it|is|value|target)|[:=]|^) ?{ALONE}(?P<a>\d*\.\d+)(?:{_AFTER}|(?= (?:ok(?:ay)?|alright|thanks?|mate|boss|now|then|on|for|and|but|or)\b))"
+    ),
+    NumberPattern(
+        rf"\b(?:(?:hold|grip|grasp|squeeze|press|clamp|pinch)(?: (?:it|this|that|the \w+))? with|give it an?|go for|aim for|(?:raise|increase|lower|reduce) it by) "
+        rf"(?:(?:an?|the|about|around|roughly) )*(?P<a>\d+)(?:{_AFTER}|(?= (?:ok(?:ay)?|please|on the (?:grip|force|gripper))\b))"
+    ),
+)
+"""'Hold it with 0.9 ok', 'give it a 10': where no force is named, a number that can be none else."""
 _NUMBERED = re.compile(rf"not|through|{words.any_of('numbered')}")
 _BARE_NUMBER = NumberPattern(
     rf"(?:(?P<before>\w+)\s+)?(?<![\w.])(?P<a>\d+(?:\.\d+)?)(?:{_AFTER}|(?= (?:at|on|as|in|if|when|with|peak|absolute|upper|lower|hard|for (?:the|a))\b))"
@@ -152,6 +162,11 @@ def left_over(text: str) -> str:
         if match := pattern.search(text):
             return match["a"]
     return ""
+
+
+def unsaid_force(text: str) -> str:
+    """A number that stands for a force in a text that names none; '' for none."""
+    return next((match["a"] for pattern in _UNSAID if (match := pattern.search(text))), "")
 
 
 def bare_number(text: str) -> str:

@@ -177,7 +177,7 @@ def read_forces(text: str) -> ReadForces:
             before = _CONDITION.sub(
                 "",
                 re.split(
-                    r"[.;,]\s|\s[-–—]\s|\(|\bbut\b|\band(?=\s*$| (?:do not|never|not|no|do|at|with|min\w*|max\w*|below|under|above|over|stay|keep|limit|cap)\b)",
+                    r"[.;,]\s|\s[-–—]\s|\(|\b(?:but|because)\b|\band(?=\s*$| (?:do not|never|not|no|do|at|with|min\w*|max\w*|below|under|above|over|stay|keep|limit|cap)\b)",
                     own,
                 )[-1],
             )

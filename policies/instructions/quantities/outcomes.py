@@ -155,6 +155,12 @@ _FORCE_FELL = re.compile(
 _CLAUSE = re.compile(r"[.;:!?]\s|,\s|\b(?:but|so|and)\b")
 
 
+_JUICE = re.compile(
+    r",? (?:the |its |some )?(?:juice|sap|pulp|flesh|insides?)(?: \w+ly| just| already)? (?:comes?|came|runs?|ran|starts?|started|drips?|dripped|leaks?|leaked|oozes?|oozed|flows?|flowed|squirts?|squirted|shows?|appears?|appeared)\b"
+)
+"""'At 1.6 N the juice comes out' slipped nothing."""
+
+
 def outcome(left: str, right: str) -> EarlierGrip | None:
     """What became of the grip with a force; None where a text says nothing of it.
 
@@ -181,6 +187,8 @@ def outcome(left: str, right: str) -> EarlierGrip | None:
     if _SUPPOSES.search(clause) and not _IT_HURT.match(right):
         return None
     if (match := _HARMLESS.match(right)) and not _ORDER.search(left):
+        return EarlierGrip(kind="most", left_cut=len(left), right_cut=match.end())
+    if match := _JUICE.match(right):
         return EarlierGrip(kind="most", left_cut=len(left), right_cut=match.end())
     for pattern, kind in _VERDICTS:
         if match := pattern.match(right):

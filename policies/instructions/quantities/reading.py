@@ -11,7 +11,12 @@ from dataclasses import dataclass, field
 
 from policies.instructions.english.number_pattern import NumberPattern
 from policies.instructions.quantities.bounds import with_bounds_at_forces, with_plain_bounds
-from policies.instructions.quantities.elisions import bare_number, left_over, written_out
+from policies.instructions.quantities.elisions import (
+    bare_number,
+    left_over,
+    unsaid_force,
+    written_out,
+)
 from policies.instructions.quantities.factors import denied_factor, read_delta, read_factor
 from policies.instructions.quantities.force import WORKED_OUT, Force
 from policies.instructions.quantities.force_units import NUMBER, ONE_FORCE, UNIT, number
@@ -150,7 +155,7 @@ def read_quantities(text: str) -> Quantities:
     unread = left_open or unread or undecided_force(plainly, is_bounded=bool(forces))
     before_factor = text
     factor, factor_words, text = read_factor(text)
-    unitless = unitless or (left_over(text) if forces else "")
+    unitless = unitless or (left_over(text) if forces else unsaid_force(text))
     if forces and all(force.kind == "least" for force in forces):
         unitless = unitless or bare_number(text)
     if factor is not None and not forces:
