@@ -106,6 +106,10 @@ _LESSER_EVIL = re.compile(
     r"|(?:bruis|squash|squish|damag|dent|mark|dropp)ed|hurt|lost|fallen|slipped) than "
 )
 """'Better bruised than dropped' fears the drop."""
+_WOULD_NOT_MIND = re.compile(
+    r"\b(?:would|should|could|do) not (?:mind|object|be (?:unhappy|sorry|upset|sad|angry|opposed|against it))\b(?: if| to)? ?"
+)
+"""'I wouldn't mind if you held it tighter' denies nothing."""
 _THAN_TOO = re.compile(
     r"\b(?:rather|better|sooner|prefer\w*)(?: \w+){0,4}? too (?:(?P<little>little|low|light|weak)|much|high|strong|hard)"
     r"(?: (?:force|pressure|grip|squeeze|strength))? than too (?:much|high|strong|hard|little|low|light|weak)\b"
@@ -213,6 +217,7 @@ def _cues(sentence: str, asks: bool) -> Iterator[Cue]:
         return
     sentence = _NOT_YOU.sub(r"\1 ", without_neutral(sentence))
     sentence = _JUST_ENOUGH.sub(r"just enough\2", _MILDLY.sub(r"\1", sentence))
+    sentence = _WOULD_NOT_MIND.sub("like ", sentence)
     sentence = _THAN_TOO.sub(lambda said: " gently " if said["little"] else " firmly ", sentence)
     sentence = _NEVER_TOO.sub(r"\1 ", sentence)
     sentence = _RATHER.sub(r" \1 ", _LESSER_EVIL.sub(" not ", sentence))

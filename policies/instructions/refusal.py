@@ -249,7 +249,7 @@ def _releases(text: str) -> str:
                 if _FORCE_NOUN.search(match.group() + after[:12]):
                     continue  # 'drop the force'
                 if re.search(
-                    r"\b(?:(?:it|they|berry|one)|(?:or(?: else)?|else|otherwise|lest|unless|in case) (?:you|we|i)|if (?:you|we)) (?:(?:might|may|will|could|would|can|just|only|surely|always|simply) ?)*$",
+                    r"\b(?:(?:it|they|berry|one)|(?:or(?: else)?|else|otherwise|lest|unless|in case|#,?(?: and)?) (?:you|we|i)|if (?:you|we)) (?:(?:might|may|will|could|would|can|just|only|surely|always|simply) ?)*$",
                     before,
                 ):
                     continue

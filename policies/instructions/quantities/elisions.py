@@ -143,6 +143,15 @@ _UNSAID = (
         rf"\b(?:(?:hold|grip|grasp|squeeze|press|clamp|pinch)(?: (?:it|this|that|the \w+))? with|give it an?|go for|aim for|(?:raise|increase|lower|reduce) it by) "
         rf"(?:(?:an?|the|about|around|roughly) )*(?P<a>\d+)(?:{_AFTER}|(?= (?:ok(?:ay)?|please|on the (?:grip|force|gripper))\b))"
     ),
+    NumberPattern(
+        rf"\b(?:force|grip|strength|pressure|squeeze)\b(?:[,:=]? (?:of|be|is|at|to|minus|about|an?))*[,:=]? (?P<a>\d+(?:\.\d+)?){_AFTER}"
+    ),
+    NumberPattern(
+        r"(?<![\w.])(?P<a>\d+(?:\.\d+)?) (?:of (?:force|grip)|strong|as (?:the )?force)\b"
+    ),
+    NumberPattern(
+        rf"\b(?:give|grip|hold|take|grasp|apply|grab)(?: (?:on to|on|onto|it|(?:this|that|the) \w+|this|that))* (?:(?:with|on|at),? )?(?:an? )?(?:(?:solid|strong|good|full|oh|say),? )*(?P<a>\d+(?:\.\d+)?){_AFTER}"
+    ),
 )
 """'Hold it with 0.9 ok', 'give it a 10': where no force is named, a number that can be none else."""
 _NUMBERED = re.compile(rf"not|through|{words.any_of('numbered')}")
