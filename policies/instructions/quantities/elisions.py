@@ -140,7 +140,7 @@ _UNSAID = (
         rf"(?:\b(?<!not )(?:with|to|by|about|around|roughly|use|apply|grip|force|it|is|value|target)|[:=]|^) ?{ALONE}(?P<a>\d*\.\d+)(?:{_AFTER}|(?= (?:ok(?:ay)?|alright|thanks?|mate|boss|now|then|on|for|and|but|or)\b))"
     ),
     NumberPattern(
-        rf"\b(?:(?:hold|grip|grasp|squeeze|press|clamp|pinch)(?: (?:it|this|that|the \w+))? with|give it an?|go for|aim for|(?:raise|increase|lower|reduce) it by) "
+        rf"\b(?:(?:hold|grip|grasp|squeeze|press|clamp|pinch)(?: (?:it|this|that|the \w+))? with|give (?:it|me) an?|go for|aim for|(?:raise|increase|lower|reduce) it by) "
         rf"(?:(?:an?|the|about|around|roughly) )*(?P<a>\d+)(?:{_AFTER}|(?= (?:ok(?:ay)?|please|on the (?:grip|force|gripper))\b))"
     ),
     NumberPattern(
@@ -148,6 +148,9 @@ _UNSAID = (
     ),
     NumberPattern(
         r"(?<![\w.])(?P<a>\d+(?:\.\d+)?) (?:of (?:force|grip)|strong|as (?:the )?force)\b"
+    ),
+    NumberPattern(
+        r"\bbetween (?P<a>\d+(?:\.\d+)?) and \d+(?:\.\d+)? (?:for|on|of|in) (?:the )?(?:grip|force|squeeze)\b"
     ),
     NumberPattern(
         rf"\b(?:give|grip|hold|take|grasp|apply|grab)(?: (?:on to|on|onto|it|(?:this|that|the) \w+|this|that))* (?:(?:with|on|at),? )?(?:an? )?(?:(?:solid|strong|good|full|oh|say),? )*(?P<a>\d+(?:\.\d+)?){_AFTER}"
