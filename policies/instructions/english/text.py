@@ -79,6 +79,15 @@ _TYPED = (
         r"\b(for [a-z ]{1,30}?(?:the|our|my) (limit|maximum|max|cap|ceiling) is [^.;]{1,20}[.;,]+ (?:(?:and|but) )?for (?:this|the|our|my|these) [a-z ]{1,20}?)(?:it|that) is\b",
         r"\1the \2 is",
     ),
+    (r"\bf[ _-]?(min|max)\b(?=[ :=]*\.?\d)", r"\1imum force"),
+    (
+        r"\bstop (?:clos|squeez|press|tighten|gripp)\w* before (?:(?:you|it|we|the force) )?(?:reach(?:es)?|hits?|gets? to|pass(?:es)?|exceeds?) ",
+        "stay below ",
+    ),
+    (
+        r"\b(is|than|most|maximum|max|least|minimum|min|below|under|above|over|at|to),(?: (?:hmm+|uh+m?|er+|oh|well|say|let me (?:think|see)|as (?:written|stated|per|agreed|said|told|i|we|you)\b[^,;.]{0,30}|my (?:dear|friend)|i (?:think|guess|believe)|you know|mind you|if i remember[^,;.]{0,20}),)+ (?=\.?\d)",
+        r"\1 ",
+    ),
     (r"\blest (?=(?:it|the|this|that|he|she|they)\b)", "for fear "),
     (r"(?<=\d)[·٫](?=\d)", "."),  # decimal points of other keyboards
     (r"(?<=[a-z]{2}),(?=\.?\d)", ", "),

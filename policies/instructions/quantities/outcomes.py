@@ -155,6 +155,7 @@ _FORCE_FELL = re.compile(
 _CLAUSE = re.compile(r"[.;:!?]\s|,\s|\b(?:but|so|and)\b")
 
 
+_ALARM = re.compile(r"\b(?:alarm|warning|buzzer|siren|bell|beeper|lamp)s? (?:\w+ )?$")
 _JUICE = re.compile(
     r",? (?:the |its |some )?(?:juice|sap|pulp|flesh|insides?)(?: \w+ly| just| already)? (?:comes?|came|runs?|ran|starts?|started|drips?|dripped|leaks?|leaked|oozes?|oozed|flows?|flowed|squirts?|squirted|shows?|appears?|appeared)\b"
 )
@@ -170,6 +171,8 @@ def outcome(left: str, right: str) -> EarlierGrip | None:
     """
     for pattern, is_harm in ((_THRESHOLD, True), (_HURT_AT, True), (_SLIPPED_AT, False)):
         match = pattern.search(left)
+        if match and _ALARM.search(left[: match.start()]):
+            return None  # 'the alarm goes off at 1.1 N' slipped nothing
         if match and _is_told(left[: match.start()], match[0], is_harm=is_harm):
             return EarlierGrip(
                 kind="most" if is_harm else "least", left_cut=match.start(), right_cut=0
