@@ -14,11 +14,6 @@ from tacgrasp.run import run_recorded
 from tacgrasp.runtime.outcome import Outcome
 
 
-@pytest.fixture(autouse=True)
-def threads_stay_as_they_are(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(soak, "one_thread", lambda: None)
-
-
 def figures(path: Path) -> dict[str, object]:
     return dict(json.loads(path.read_text()))
 
