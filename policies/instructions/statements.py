@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from policies.instructions.english import words
 from policies.instructions.english.number_pattern import NumberPattern
 from policies.instructions.english.text import sentences
-from policies.instructions.quantities.force import MARK
+from policies.instructions.quantities.force import AS_BEFORE, MARK
 from policies.instructions.quantities.force_units import ONE_FORCE
 from policies.instructions.quantities.masses import OBJECT
 
@@ -73,9 +73,7 @@ _SINCE = NumberPattern(
 _THAN_PAST = re.compile(
     rf"\bthan (?:\w+ )?{_PAST}|(?<!\d )(?<!n )(?<!% )(?<!percent )\b{_LESS} than (?:that|this|it)\b"
 )
-_SAME = re.compile(
-    r"\b(?:same|again|also|too|as (?:before|yesterday|last time|usual)|like (?:yesterday|last time|before)|repeat|still)\b|#"
-)
+_SAME = re.compile(rf"{AS_BEFORE}|#")
 _AGREED = re.compile(
     r"\b(?:keep|agreed|discussed|back to|stick|use (?:the|that|my|our|his|her)|(?:as|like) (?:i|we|you|he|she|they) (?:\w+ )?(?:said|told|asked|mentioned|wrote|did|used|had|wanted)|"
     r"as (?:said|mentioned|told)|(?:said|told|asked)(?: \w+){0,2}? before)\b"

@@ -36,3 +36,6 @@ class Force:
 NO_OTHER_FORCE = r"(?! (?:with|at|under|below|from|using|on|above|over|beyond)(?: (?:only|just|about|around|roughly|a force of))* (?:\.?\d|#))"
 """Behind an outcome: one that has a force of its own is none of the force before it, as in 'under 1 N,
 but it slipped with 0.3 N'."""
+
+AS_BEFORE = r"\b(?:same|again|also|too|as (?:before|yesterday|last time|usual)|like (?:yesterday|last time|before)|repeat|still)\b"
+"""What asks for a force of another day once more."""

@@ -7,7 +7,7 @@ from typing import Literal, NamedTuple
 
 from policies.instructions.english import words as english
 from policies.instructions.english.denials import FORBIDDEN_AFTER, NO_CASE
-from policies.instructions.quantities.force import MARK, WORKED_OUT, Force, Kind
+from policies.instructions.quantities.force import AS_BEFORE, MARK, WORKED_OUT, Force, Kind
 from policies.instructions.quantities.masses import OBJECT
 from policies.instructions.quantities.outcomes import EarlierGrip, is_again, outcome
 from policies.instructions.quantities.relations import NOT, relation
@@ -91,9 +91,7 @@ _TRIED = re.compile(
 _THEN = re.compile(
     r"\s*(?:yesterday|last (?:time|week|night|year|month)|earlier|the other day|this morning)\b"
 )
-_AS_THEN = re.compile(
-    r"\b(?:same|again|as (?:before|yesterday|last time|usual)|like (?:yesterday|last time|before)|repeat|still|that|too|also)\b"
-)
+_AS_THEN = re.compile(rf"{AS_BEFORE}|\bthat\b")
 """Beside a force of another day: it is asked for today too."""
 
 

@@ -2,5 +2,5 @@
 
 Not here: what a question means (``tacgrasp.lessons.understanding``).
 
-May import: tacgrasp.lessons.dialogue.
+May import: cltp.texts, tacgrasp.lessons.dialogue.
 """

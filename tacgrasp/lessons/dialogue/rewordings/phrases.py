@@ -171,8 +171,7 @@ _PLAIN = (
                 r"unbroken|observed|holding|kept|honou?red)(?=[?.! ]*$)", re.I),
      "is the limit respected"),
     (re.compile(r"\bis (?:the|our|your|my) (?:force )?(?:band|range|window) (?:still )?(?:kept|"
-                r"observed|"
-                r"respected|held|met|"
+                r"observed|respected|held|met|"
                 r"honou?red)(?=[?.! ]*$)", re.I), "is the force within the band"),
     (re.compile(rf"^does {_GRIP} (?:still |now )?need no (?:{_CHANGE})(?=[?.! ]*$)|"
                 rf"^(?:should|can|may|must) {_GRIP} (?:stay|remain|be left|be kept) (?:as it is|"
@@ -206,8 +205,7 @@ _PLAIN = (
                 r"/) ?(?P<b>[a-z]{4,})(?=[?.! ]*$)",
                 re.I), r"\g<a> or \g<b>"),
     (re.compile(r"^(?P<a>[a-z]+ or [a-z]+)[,;:–—-]+ *(?:what|which) (?:do|d['’]) ?(?:you|"
-                r"ya) (?:think|"
-                r"reckon|say|guess)(?=[?.! ]*$)", re.I), r"\g<a>"),
+                r"ya) (?:think|reckon|say|guess)(?=[?.! ]*$)", re.I), r"\g<a>"),
     (re.compile(r"^(?:.*[.!] )?(?:do|did|have) (?:you|we|i) (?:have|hold|got|feel|get|pick up) the (?P<a>[a-z]+) one or the (?P<b>[a-z]+) one(?=[?.! ]*$)", re.I),
      r"\g<a> or \g<b>"),
     (re.compile(r"^(?:please )?(?:help me |i must |i have to |i need to )(?:decide|choose) between "
@@ -222,28 +220,23 @@ _PLAIN = (
                 r"our) grip(?: now| next)?"
                 r"(?=[?.! ]*$)", re.I), "To get into the band, tighten or loosen"),
     (re.compile(r"^(?:the )?(?:margin|headroom|distance|gap|reserve|room)(?: left)? (?:to|below|"
-                r"under|"
-                r"until) (?:the )?(?:hard |force )?limit,? (?:in )?(?P<unit>m?N|newtons?|"
-                r"millinewtons?)"
-                r"(?=[?.! ]*$)", re.I), r"how many \g<unit> are left to the limit"),
+                r"under|until) (?:the )?(?:hard |force )?limit,? (?:in )?(?P<unit>m?N|newtons?|"
+                r"millinewtons?)(?=[?.! ]*$)", re.I), r"how many \g<unit> are left to the limit"),
     (re.compile(r"^does (?P<what>the (?:difference|gap|margin|distance)\b[^?]*?) (?:come|amount|"
-                r"add up) "
-                r"to ", re.I), r"is \g<what> "),
+                r"add up) to ", re.I), r"is \g<what> "),
     (re.compile(r"\bout of (?:a |one )hundred,? how much\b", re.I), "what percentage"),
     (re.compile(r"\bwhich size (?:class|category|bin) (?:does |is )?(?:the|this|"
                 r"our) (?:footprint|patch|"
                 r"contact|imprint|spot) (?:belongs? (?:to|in)|falls? in(?:to)?|in)\b", re.I),
      "what is the area class"),
     (re.compile(r"^(?:i (?:suspect|think|believe|guess|reckon|assume|bet|suppose)|my guess is|"
-                r"they say|"
-                r"somebody (?:says|claims|"
+                r"they say|somebody (?:says|claims|"
                 r"thinks))(?: that)? (?P<stated>[^.?!;]*[^.?!;\d])[.;!,]+ (?:is (?:that|"
                 r"this|it) (?:so|right|true|correct|the case)|am i right|"
                 r"do you agree)(?=[?.! ]*$)", re.I),
      r"is it true that \g<stated>"),
     (re.compile(r"\bthe (?:force )?(?:interval|range|band|window) (?:which |that )?(?:the |my |"
-                r"our |your )?"
-                r"(?:(?:present|current|given) )?(?:command|instruction|order|"
+                r"our |your )?(?:(?:present|current|given) )?(?:command|instruction|order|"
                 r"contract)s? (?:prescribes?|"
                 r"asks? for|demands?|requires?|wants?|sets?|calls? for)\b", re.I), "the band"),
     (re.compile(r"\bthe (?:force|value|line|mark) (?:that|which)(?:,[^,]*,)? (?:must|may|can|"
@@ -258,8 +251,7 @@ _PLAIN = (
                 r"even )?", re.I),
      "covers less than "),
     (re.compile(r"^would (?:one|i|we) be (?:right|correct|justified) (?:in|to) (?:assert|claim|"
-                r"say|stat)"
-                r"(?:ing|e)? that ", re.I), "is it true that "),
+                r"say|stat)(?:ing|e)? that ", re.I), "is it true that "),
     (re.compile(r"\bwhat(?:['’]s| is) the name of the person\b[^?]*", re.I), "who owns it"),
     (re.compile(r"\bgive me the lot[:,;–—-]+ *", re.I), "tell me "),
 )  # fmt: skip

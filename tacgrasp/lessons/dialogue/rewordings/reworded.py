@@ -16,6 +16,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 
+from cltp.texts.captions import with_article
 from tacgrasp.lessons.dialogue.plainer import AUXILIARY
 from tacgrasp.lessons.dialogue.rewordings.phrases import with_plain_phrases
 
@@ -225,11 +226,10 @@ def _told_apart(text: str) -> str:
 
 def _which_one(text: str) -> str:
     found = _WHICH_ONE.fullmatch(text)
-    return f"Is it {_with_article(found['a'])} or {_with_article(found['b'])}?" if found else ""
-
-
-def _with_article(name: str) -> str:
-    return name if " " in name else f"a {name}"
+    if found is None:
+        return ""
+    one, other = (name if " " in name else with_article(name) for name in found.group("a", "b"))
+    return f"Is it {one} or {other}?"
 
 
 def _called(text: str) -> str:
