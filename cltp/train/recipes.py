@@ -67,22 +67,26 @@ class CltpRecipe(AlignmentRecipe):
         head_weight: Weight of the state heads' losses; 0 in the paper.
         moved: Fraction of the contacts, 0 to 1, that are shifted and turned on the pad.
         coarse: Fraction of the contacts, 0 to 1, that a few taxels feel instead of pixels.
+        clean: Fraction of the contacts, 0 to 1, that a sensor without noise feels; that of all
+            methods when not given.
         contrast_weight: Weight of L_T2L and L_T2I; 0 leaves the heads, and the prompts, alone.
 
     Raises:
-        TouchError: A weight is negative, all are 0, or ``moved`` or ``coarse`` is no fraction.
+        TouchError: A weight is negative, all are 0, or ``moved``, ``coarse`` or ``clean`` is no
+            fraction.
     """
 
     head_weight: float = 1.0
     moved: float = 0.0
     coarse: float = field(default=0.0, repr=False)  # see ``identity``
+    clean: float | None = field(default=None, repr=False)
     contrast_weight: float = field(default=1.0, repr=False)
 
     @property
     def identity(self) -> str:
         """All values in one line; unchanged for trainings that are older than the last one.
 
-        ``coarse`` is told by the augmentation.
+        ``coarse`` and ``clean`` are told by the augmentation.
         """
         weight = self.contrast_weight
         return str(self) if weight == 1 else f"{self} contrast_weight {weight}"
@@ -91,8 +95,9 @@ class CltpRecipe(AlignmentRecipe):
         AlignmentRecipe.__post_init__(self)
         if not any((self.contrast_weight, self.prompt_weight, self.head_weight)):
             raise TouchError("contrast_weight, prompt_weight and head_weight can't all be 0")
-        for name, value in (("moved", self.moved), ("coarse", self.coarse)):
-            if not 0 <= value <= 1:
+        for name in ("moved", "coarse", "clean"):
+            value = getattr(self, name)
+            if value is not None and not 0 <= value <= 1:
                 raise TouchError(f"{name} must be a fraction from 0 to 1, got {value}")
 
 

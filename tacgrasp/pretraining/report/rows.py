@@ -161,8 +161,15 @@ ROWS: Mapping[str, RowRecipe] = {
         preset="grid_curves",
         optimiser="muon",
     ),
+    "cltp_muon_curves_clean": RowRecipe(
+        about="the same, half of whose contacts are felt without noise",
+        method="cltp",
+        preset="grid_curves",
+        recipe=CltpRecipe(clean=0.5),
+        optimiser="muon",
+    ),
     "cltp_muon_curves_full": RowRecipe(
-        about="the same, learned from the set full without the unseen objects",
+        about="cltp-muon-curves, learned from the set full without the unseen objects",
         method="cltp",
         preset="grid_curves",
         learns_from="full",
