@@ -226,14 +226,47 @@ def test_images_of_moved_contacts_are_those_of_where_they_came_to(
     torch.testing.assert_close(features.images(half)[4:], features.images(stayed)[4:])
 
 
-def test_moved_contacts_are_another_training(
-    data_dir: Path, towers_dir: Path, tmp_path: Path
+@pytest.mark.parametrize(
+    ("recipe", "told"),
+    [
+        (CltpRecipe(moved=0.5), r"moved 0\.5 instead of 0\.0"),
+        (CltpRecipe(clean=0.5), r"clean 0\.5 instead of 0\.0"),
+    ],
+)
+def test_contacts_that_are_felt_otherwise_are_another_training(
+    data_dir: Path, towers_dir: Path, tmp_path: Path, recipe: CltpRecipe, told: str
 ) -> None:
     schedule = Schedule(steps=2, batch_size=4, learning_rate=1e-3)
     run = TrainingRun(data=data_dir, out=tmp_path)
-    train_cltp(run, TINY, schedule, CltpRecipe(moved=0.5), clip_dir=towers_dir)
-    with pytest.raises(TouchError, match=r"training: moved 0\.5 instead of 0\.0;"):
-        train_cltp(run, TINY, schedule, CltpRecipe(), clip_dir=towers_dir)
+    train_cltp(run, TINY, schedule, recipe, augmentation=NOISY, clip_dir=towers_dir)
+    with pytest.raises(TouchError, match=f"training: {told};"):
+        train_cltp(run, TINY, schedule, CltpRecipe(), augmentation=NOISY, clip_dir=towers_dir)
+
+
+def test_a_recipe_says_how_many_contacts_are_felt_without_noise(
+    data_dir: Path, towers_dir: Path, tmp_path: Path
+) -> None:
+    schedule = Schedule(steps=2, batch_size=4, learning_rate=1e-3)
+    noiseless = dataclasses.replace(NOISY, clean=1.0)
+    for name, recipe, noise in (
+        ("said", CltpRecipe(clean=1.0), NOISY),
+        ("noiseless", CltpRecipe(), noiseless),
+        ("noisy", CltpRecipe(), NOISY),
+    ):
+        run = TrainingRun(data=data_dir, out=tmp_path / name)
+        train_cltp(run, TINY, schedule, recipe, augmentation=noise, clip_dir=towers_dir)
+    said, alike, other = (
+        tmp_path / name / "encoder" / "model.safetensors" for name in ("said", "noiseless", "noisy")
+    )
+    assert_same_weights(said, alike)
+    with pytest.raises(AssertionError):
+        assert_same_weights(said, other)
+
+
+@pytest.mark.parametrize("name", ["moved", "coarse", "clean"])
+def test_what_is_no_fraction_is_refused(name: str) -> None:
+    with pytest.raises(TouchError, match=f"{name} must be a fraction from 0 to 1, got 1.5"):
+        CltpRecipe(**{name: 1.5})
 
 
 def test_damaged_features_are_refused(data_dir: Path, towers_dir: Path, tmp_path: Path) -> None:
