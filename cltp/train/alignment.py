@@ -73,9 +73,10 @@ def train_cltp(
     torch.manual_seed(seed)
     learner = _Learner(config).to(workers.device)
     force = None if start is None else _take(start, learner)
-    felt = {"coarse": recipe.coarse or None, "clean": recipe.clean}
-    if changed := {name: part for name, part in felt.items() if part is not None}:
-        augmentation = dataclasses.replace(augmentation or Augmentation(), **changed)
+    if recipe.coarse:
+        augmentation = dataclasses.replace(augmentation or Augmentation(), coarse=recipe.coarse)
+    if recipe.clean is not None:
+        augmentation = dataclasses.replace(augmentation or Augmentation(), clean=recipe.clean)
     noise = augmentation and augmentation.identity
     identity = {
         "data": data.checksum(),
