@@ -173,6 +173,12 @@ def _take_words(draft: _Draft, request: Request, task: TaskTerms, *, is_own: boo
             f"{request.need.words!r} says what something else takes than the {held}; say 'use ...' "
             "for this grip"
         )
+    held, left = request.in_place
+    if left and not is_another(left, task.object) and is_another(held, task.object):
+        raise RefusedError(
+            f"it asks for the {held}, not for the {left}; the forces here are those of "
+            f"{with_article(task.object.replace('_', ' '))} (--task)"
+        )
     if not is_own and _is_of_another_task(request.thing, task):
         draft.assumed.append(
             f"the {request.thing} is the object of another task (--task); the forces here are "

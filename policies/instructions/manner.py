@@ -248,10 +248,14 @@ def _clause_cues(clause: str) -> Iterator[Cue]:
             if match.group().strip():
                 found.append((match.start(), match.end(), sign, level, turns))
         masked = pattern.sub(lambda match: "~" * len(match.group()), masked)
+    denied = 0  # the sign of the cue before, where a denial turned it
     for start, end, sign, level, turns in sorted(found):
         before = masked[max(0, start - _REACH) : start]
         after_and = before.rpartition(" and ")[2]
-        before = after_and if _DENIAL.search(after_and) else before
+        ends = (
+            _DENIAL.search(after_and) or denied == -sign
+        )  # 'without rough grips and with soft ones'
+        before = after_and if ends else before
         denials = list(_DENIAL.finditer(before)) if turns else []
         if not denials and before.endswith("as ") and _AS_BEFORE.match(clause[end:]):
             continue
@@ -260,6 +264,7 @@ def _clause_cues(clause: str) -> Iterator[Cue]:
             turned = True
         if turns and _DENIED_AFTER.match(masked[end:]) and "~" not in masked[end : end + 3]:
             turned = not turned
+        denied = sign if turned and denials else 0
         begin = start - len(before) + denials[0].start() if denials else start
         near = clause[max(0, start - 22) : end + 12]
         yield Cue(

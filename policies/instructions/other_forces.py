@@ -144,6 +144,32 @@ def need_of(text: str) -> SaidNeed | None:
     return None
 
 
+_KNOWN = rf"(?:straw ?berr(?:y|ies)|berr(?:y|ies)|{words.any_of('other_object')})\b"
+_CHOSEN = _HELD.pattern.replace(OBJECT, _KNOWN)
+_LEFT = rf"(?:(?:the|a|an|this|that|my|our|your|these|those|any) )?(?:\w+ )?(?P<left>{_KNOWN})"
+_IN_PLACE = (
+    re.compile(
+        rf"{_CHOSEN}[^.;:!?]{{0,30}}?,? (?:instead of|rather than|in place of|and not|not) {_LEFT}"
+    ),
+    re.compile(
+        rf"\b(?:instead of|rather than|in place of|not|forget(?: about)?) {_LEFT}[^.;:!?]{{0,20}}?,? {_CHOSEN}"
+    ),
+)
+"""'Pick up the tomato instead of the berry'."""
+
+
+def in_place_of(text: str) -> tuple[str, str]:
+    """Kinds of what is to be held, and of what is not to be held; '' without such a choice.
+
+    Args:
+        text: Plain text, its numbers in digits.
+    """
+    for pattern in _IN_PLACE:
+        if match := pattern.search(text):
+            return kind_of(match["object"]), kind_of(match["left"])
+    return "", ""
+
+
 def is_another(name: str, task_object: str) -> bool:
     """Whether the kind of an object is not that of a task's object ('cherry_tomato')."""
     return "fruit" not in (name, task_object) and name != kind_of(task_object.split("_")[-1])

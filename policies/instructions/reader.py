@@ -9,7 +9,7 @@ from policies.instructions.english import words
 from policies.instructions.english.spelling import spelled
 from policies.instructions.english.text import plain, sentences
 from policies.instructions.manner import Manner, has_manner, read_manner
-from policies.instructions.other_forces import SaidNeed, need_of, without_other_forces
+from policies.instructions.other_forces import SaidNeed, in_place_of, need_of, without_other_forces
 from policies.instructions.own_work import without_own_work
 from policies.instructions.quantities import Quantities, read_quantities
 from policies.instructions.quantities.bounds import with_bounds_at_forces
@@ -28,6 +28,7 @@ class Request:
         numbers: Its quantities.
         manner: Its manner.
         verb, thing: What is asked for, in words ('hold', 'berry').
+        in_place: Kinds of an object to hold and of one not to hold ('tomato', 'berry'); '' without.
         need: What it says that an object needs, where that may be a wish; None where it says none.
         refused: Reason not to carry it out; '' without one.
     """
@@ -37,6 +38,7 @@ class Request:
     manner: Manner
     verb: str
     thing: str
+    in_place: tuple[str, str]
     need: SaidNeed | None
     refused: str
 
@@ -150,6 +152,7 @@ def read_request(text: str) -> Request:
         manner=read_manner(numbers.rest),
         verb=verb.group() if verb else "hold",
         thing=thing.group(1) if thing else "",
+        in_place=in_place_of(numbers.rest),
         need=need_of(clean) if numbers.forces else None,
         refused=_refusal(text, clean, numbers) or stated,
     )

@@ -137,6 +137,36 @@ _TOLD_BEFORE = NumberPattern(
 """'It slipped with 0.3 N - 0.9 N at most' has no range."""
 
 
+_TAKEN_UP = r"(?:it|that|this|(?:that|this|the|said) (?:line|figure|value|number|mark|level|threshold|limit|force|point|ceiling|bound|floor|peak))(?=\s*(?:$|[.,;:!?)]|(?:and|or|but|when|while|whatever|at any|under any|please|today|with|at all|ever|this time)\b))"
+_NOT_TO = r"(?:(?:do|must|may|should|shall|can|will|to) not|never|cannot|not to|no need to|refuse to)(?: ever| you| even)*"
+_TO = r"(?:go|get|be|push|climb|rise|squeeze|grip|hold|press|stray|step|creep|move|drift|come|fall|drop|dip|sink|let it (?:go|get|fall|drop|climb|rise))(?: (?:it|any|even|far))?"
+_KEEP = r"(?:stay|keep|remain|stop|hold)(?: (?:it|yourself|well|far|safely|always|just|strictly|today|clearly|(?:the|your|its) (?:\w+ )?(?:force|grip|squeeze|pressure|fingers?|gripper)))*"
+_CALL = r"(?:respect|treat|take|regard|consider|see|count|call) (?:it|that|this) (?:as )?(?:an?|the|your|my|our)(?: \w+)?"
+_CALLED_LATER = NumberPattern(
+    rf"(?P<force>{NUMBER}\s*-?\s*(?:{UNIT})\b)[.;:!?,–—-]* (?:(?:so|and|but|please|just|you|now|then)\b,? ?)*{_CALL} (?:(?P<most>ceiling|limit|maximum|max|cap|roof)|floor|minimum|least|lower limit)\b"
+)
+"""'0.9 N. Treat it as a ceiling.'"""
+_BOUND_LATER = NumberPattern(
+    r"(?:^|(?<=[.;:!?,] ))(?P<told>(?:i|we|he|she|they|you|our|my|his|her|the|its?|this|that|here|there|yesterday|somebody|someone|measured|found|remember)\b[^.;:!?\d]*? )"
+    rf"(?P<force>{NUMBER}\s*-?\s*(?:{UNIT})\b)(?P<more>[^.;:!?\d]{{0,40}}?)[.;:!?,–—-]+\s*"
+    r"(?:(?:so|and|but|please|just|you|now|then|therefore|today|i say|robot)\b,? ?)*(?:"
+    rf"(?P<most>{_NOT_TO} (?:{_TO} (?:above|over|beyond|past|higher than|harder than|more than|across)|cross|exceed|pass|surpass|overstep|breach|overshoot) {_TAKEN_UP}|"
+    rf"{_KEEP} (?:under|below|beneath|underneath|short of|clear of|away from|on this side of) {_TAKEN_UP})|"
+    rf"(?P<least>{_NOT_TO} (?:{_TO} (?:under|below|beneath|lower than|softer than|less than)|undercut|undershoot) {_TAKEN_UP}|"
+    rf"{_KEEP} (?:above|over) {_TAKEN_UP}))"
+)
+"""'I measured 0.65 N. Don't cross it.': a number that is told, and made a bound by the clause behind it."""
+_ASKS = re.compile(
+    r"\b(?:use|using|hold|grip|grasp|squeeze|lift|pick|apply|want|need|must|should|shall|may)\b"
+)
+
+
+def _as_bound(match: re.Match[str]) -> str:
+    if _ASKS.search(match.groupdict().get("told", "")):
+        return match[0]
+    return f"{'at most' if match['most'] else 'at least'} {match['force']}"
+
+
 def with_bounds_at_forces(text: str) -> str:
     """Leave out of a plain text what stands between a force and its bound and changes neither.
 
@@ -145,6 +175,7 @@ def with_bounds_at_forces(text: str) -> str:
     """
     text = _OF_FORCE.sub(r"\g<force>", _WORDED.sub("", text))
     text = _TOLD_BEFORE.sub(r"\g<told>. ", text)
+    text = _CALLED_LATER.sub(_as_bound, _BOUND_LATER.sub(_as_bound, text))
     text = _NO_MORE.sub(r"\g<force> at most", text)
     return _AFTER_BOUND.sub(r"\g<bound> ", text)
 
