@@ -743,3 +743,58 @@ def test_what_may_be_done_is_not_asked_of_what_is(question):
 )
 def test_a_question_in_other_words_asks_the_same(question, query):
     assert understood_by_grammar(question).query == query
+
+
+@pytest.mark.parametrize(
+    ("question", "query"),
+    [
+        (
+            "If the limit counts as 100 percent, at how many percent is the force?",
+            "amount used %.",
+        ),
+        (
+            "Expressed as a percentage of the band's lower edge, how high is the force?",
+            "calculate 100 * force_n / band_low_n in %.",
+        ),
+        (
+            "Take the force away from the top of the band; what is left over, in newtons?",
+            "calculate band_high_n - force_n in N.",
+        ),
+        (
+            "Suppose I add half a newton to the force we have: how many newtons would I then have "
+            "left up to the limit?",
+            "calculate limit_n - (force_n + 0.5) in N.",
+        ),
+        ("I'd like to know, in µm, how deep the pad is pressed.", "amount depth µm."),
+        (
+            "How many newtons are left before the limit is reached (zero if none)?",
+            "calculate max(0, limit_n - force_n) in N.",
+        ),
+        ("Suppose that it weighs 200 g: will it slip?", "check slips #1 g."),
+        ("A minimum of 3 N is called for; is that reached?", "check force >= #1 N."),
+        (
+            "Has the force climbed to nine tenths of the limit or beyond?",
+            "calculate force_n >= 0.9 * limit_n.",
+        ),
+        ("On the left, does the imprint go over the edge of the pad?", "check cut left."),
+        ("Use words, not coordinates, to say where the touch is.", "choice position."),
+        (
+            "Should the grip be tightened, loosened or kept?",
+            "calculate 'tightened' if force_n < band_low_n else "
+            "'loosened' if force_n > band_high_n else 'kept'.",
+        ),
+        ("Before I sign this off, tell me how deep it is.", "amount depth mm."),
+        (
+            "Has it gone more than 0.5 mm deep or less than 0.5 mm deep?",
+            "calculate 'more' if depth_mm > 0.5 else 'less'.",
+        ),
+        (
+            "How heavy can an object be, in grams, and it will surely not slip out of this grip?",
+            "amount holds g.",
+        ),
+    ],
+)
+def test_parts_of_a_question_may_stand_elsewhere(question: str, query: str) -> None:
+    read = understood_by_grammar(question)
+    assert read is not None
+    assert read.query == query

@@ -91,13 +91,17 @@ _WHICH_SIDE = re.compile(
     rf"(?P<a>.+?)(?: (?:on|lie|lie on))? (?P<one>{_SIDE}) or (?P<two>{_SIDE})"
 )
 _TIGHTEN = (
-    r"(?:tighten|squeeze (?:harder|more)|grip (?:harder|more)|press (?:harder|more)|increase|add)"
+    r"(?:tighten(?:ed)?|squeeze (?:harder|more)|grip (?:harder|more)|press (?:harder|more)|"
+    r"increased?|raised|add)"
 )
 _LOOSEN = (
-    r"(?:loosen|ease(?: off)?|relax|decrease|reduce|squeeze (?:less|softer)|"
-    r"let go a (?:bit|little))"
+    r"(?:loosen(?:ed)?|eased?(?: off)?|relax(?:ed)?|decreased?|reduced?|lowered|"
+    r"squeeze (?:less|softer)|let go a (?:bit|little))"
 )
-_HOLD = r"(?:hold(?: still| on)?|keep(?: it)?|stay|leave it|do nothing|wait|stop)"
+_HOLD = (
+    r"(?:hold(?: still| on)?|held|keep(?: it)?|kept|stay|leave it|left (?:alone|as it is)|"
+    r"do nothing|wait|stop)"
+)
 _STEP = re.compile(
     rf"(?=.*\b(?P<more>{_TIGHTEN})\b)(?=.*\b(?P<less>{_LOOSEN})\b)(?:.*\b(?P<hold>{_HOLD})\b)?"
 )

@@ -29,6 +29,9 @@ _ASKS = re.compile(
     r"how['’]s|where['’]s)\b)",
     re.I,
 )
+_TELL = re.compile(
+    r"(?:please )?(?:tell (?:me|us)|say|let me know) (?=(?:what|how|where|which)\b)", re.I
+)
 _STATES = re.compile(r"(?:you|we|it|they|that|there)(?:['’]re|['’]s|['’]ve)?\b", re.I)
 _TAG = re.compile(
     r"(?<=[\w%])(?:,)? (?P<tag>(?:is|are|was|have|has|do|does|did|can|will)(?:n['’]t)? "
@@ -43,7 +46,8 @@ _ASK_ME = re.compile(
 )
 _BEARS = re.compile(
     r"\d|\b(?:if|unless|suppose|supposing|imagine|assum\w+|instead|answer|reply|pick|choose|call|"
-    r"means?|sign|minus|negative|positive|word|sentence|count|counting|say|whichever|either|"
+    r"means?|sign(?! (?:it|this|that|the|off|for|up|on)\b)|minus|negative|positive|word|"
+    r"sentence|count|counting|say|whichever|either|"
     r"neither|or|force\w*|newtons?|depth|deep|dent|contact|area|patch|limit|band|range|window|"
     r"edges?|borders?|offset|shapes?|textures?|surface|position|mass|weight|weighs?|grams?|kilos?|"
     r"mm|micro\w+|milli\w+|(?:left|right|top|bottom|palm|fingertip) (?:side|edge|half|hand|part|"
@@ -148,7 +152,7 @@ def _of_clauses(text: str) -> Iterator[str]:
         if _POINTS_BACK.search(behind) and not _TELLS.search(before):
             continue
         states = _STATES.match(behind) and _TAG.search(behind)
-        if _ASKS.match(behind) or states:
+        if _ASKS.match(behind) or _TELL.match(behind) or states:
             yield _with_comma(behind)
             return
 

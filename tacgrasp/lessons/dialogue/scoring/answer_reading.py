@@ -171,10 +171,14 @@ class AnswerReading:
     def words(self, name: str, choices: Sequence[str] = ()) -> Sequence[str]:
         """Words of a scene's name in the answer, or of these to choose from, each once.
 
-        Choices that are words of a name are said as that name's.
+        Choices that are words of a name are said as that name's. One that begins an answer, before
+        a colon, is said alone: 'Limit: the force is 1 N and the limit is 2 N.'
         """
         if name in CLASSES:
             return _class_words(name, self.text)
+        head, colon, _ = self.text.partition(":")
+        if colon and (named := [each for each in choices if each.casefold() == head.casefold()]):
+            return named
         phrases = _PHRASES.get(name) or _phrases_of(choices)
         text = self.text.replace("not cut", "whole")
         found = []

@@ -1,0 +1,93 @@
+"""Parts of a question that stand elsewhere, or are said more plainly, in one of the same meaning.
+
+    I'd like to know, in µm, how deep it is.                  how deep it is, in µm
+    If the limit counts as 100 %, at what % is the force?     what percentage of the limit is the force
+    Take the force away from the limit; what is left, in N?   what is the limit minus the force, in N
+    On the left, does it go over the edge?                    does it go over the left edge
+    How many newtons are left (zero if none)?                 How many newtons are left, zero if none
+
+Not here: constructions with a denial or a choice (``reworded``), phrases that have a plainer one in
+the same place (``phrases``).
+"""
+
+from __future__ import annotations
+
+import re
+
+_END = r"(?=[?.! ]*$)"
+_UNIT = r"(?P<unit>m?N|mm²?|[µu]m|cm²?|g|%|(?:milli|micro|centi)?(?:newtons?|met(?:re|er)s?)|microns?|grams?|per ?cent)"
+_ASKS = r"(?:how|what|where|by how|which)\b"
+_SUPPOSED = (
+    r"(?:suppose|supposing|assume|assuming|imagine|let(?:['’]s| us) (?:say|suppose|assume)|say)"
+)
+_WHOLE = r"(?:100 ?(?:%|per ?cent)|a hundred (?:%|per ?cent)|one hundred (?:%|per ?cent))"
+_SIDE = r"(?P<side>left|right|top|bottom|upper|lower|palm|fingertip)"
+_BAND = r"(?:the |our |its )?(?:force |target )?band"
+
+_MOVED = (
+    (rf"^(?P<head>[^?,]*\b(?:know|tell me|say|hear|learn|give me|told|see)),? in {_UNIT},? (?P<asks>{_ASKS}[^?.]*)",
+     r"\g<asks>, in \g<unit>"),
+    (rf"^(?:if|with|when|where|taking|counting|say|suppose) (?P<b>the [^,]+?) (?:(?:counts?|is|taken|is taken|makes?|represents?|counted|is set|being|equals?|stands? for|set) )*(?:as |to |at )?{_WHOLE}(?: (?:of it|mark))?,? (?:at )?(?:how many|what|which) (?:%|per ?cent\w*)(?: of (?:it|that))? (?:is|are|would|does|do|lies?|have) (?P<a>(?:the|our|my|your|this) [^?]+?)(?: (?:be|lie|stand|at|reach(?:ed)?|now|then|sit))*(?=[?.! ]*$)",
+     r"what percentage of \g<b> is \g<a>"),
+    (rf"^(?:(?:expressed|given|stated|put|told|written|taken|measured) )?(?:as|in) (?:a )?(?:per ?cent(?:age)?s?|share|%) of (?P<b>(?:the|our) [^,]+?),? (?:how (?:high|large|big|great|much|strong|hard)|what) is (?P<a>[^?]+?){_END}",
+     r"what percentage of \g<b> is \g<a>"),
+    (rf"^(?:if (?:you|i|we) )?(?:take|subtract|deduct) (?P<a>the [^,;]+?)(?: away)? from (?P<b>the [^,;?]+?)[,;:.–—-]+ *(?:and )?(?:what|how much|how many newtons|how many grams) (?:is|are|remains?|do (?:you|we|i) (?:get|have)|does that (?:give|leave|make))(?: left)?(?: over)?(?P<rest>,? in \w+)?{_END}",
+     r"what is \g<b> minus \g<a>\g<rest>"),
+    (rf"^(?:on|at|towards?|to) the {_SIDE}(?: (?:side|end|hand side))?, (?P<rest>(?:does|is|has|do)\b[^?]*?\b(?:the|its|any) )(?P<edge>edge|border|rim)\b",
+     r"\g<rest>\g<side> \g<edge>"),
+    (rf"\b(?:goe?s?|reach(?:es)?|extends?|spills?) (?:out )?(?:over|past|beyond) (?P<edge>the {_SIDE} (?:edge|border|rim))(?: of the (?:pad|gel|sensor))?", r"run off \g<edge>"),
+    (rf"^{_SUPPOSED}(?: that)? (?P<told>[^?:;]+)[:;–—-]+ (?=(?:{_ASKS}|will|would|is|are|does|do|can))",
+     r"if \g<told>, "),
+    (r"^suppos(?:e|ing)(?: that)? (?=(?:i|we|you) (?:add|put|take|remov|increas|reduc|lower|rais|eas)\w*\b)", "if "),
+    (r"(?P<n>\d ?m?N|newtons?) to the (?:present |current )?force(?: (?:that )?(?:we|you|i) (?:have|apply|feel)(?: got)?)?(?: right)?(?: now)?(?=[:,;])", r"\g<n>"),
+    (r"(?<=, )how many newtons would (?:i|we|you)(?: then)? (?:still )?have (?:left )?(?=(?:up )?to the limit)",
+     "how many newtons are left "),
+    (r"\b(?P<a>newtons (?:are|would be)(?: then)?(?: still)? left|how much is(?: then)? left) (?=to the limit)",
+     r"\g<a> up "),
+    (r"(?<=, )how much is left up (?=to the limit)", "how many newtons are left up "),
+    (r"\bleft before (?P<what>(?:the|our) (?:force )?limit) is (?:reached|hit|met|used up)\b", r"left to \g<what>"),
+    (r" ?\((?P<zero>(?:zero|0|nothing|nil) (?:if|when|where|otherwise)\b[^()]*|(?:if|when) [^()]*\b(?:zero|0))\)", r", \g<zero>"),
+    (r"\bsay (?P<zero>0|zero) (?:otherwise|if not|else)\b", r"\g<zero> otherwise"),
+    (r"^short of (?P<end>the (?:lower|bottom) (?:edge|end|bound) of the band) by how many newtons,? (?:zero|0) (?:if|when)\b[^?]*",
+     r"by how many newtons is it short of the lower end of the band, zero if it isn't"),
+    (rf"^use words,? (?:and )?not (?:coordinates|numbers|figures|digits|millimet\w+),? to (?:say|tell me|describe|state) (?P<asks>{_ASKS}[^?.]*)",
+     r"\g<asks>, in words"),
+    (r"^in words(?:,| and) not (?:in )?(?:coordinates|numbers|figures|digits|millimet\w+), ", "in words, "),
+    (r"(?<=in words), not (?:in )?(?:coordinates|numbers|figures|digits|millimet\w+)", ""),
+    (rf"^(?:say|tell me|describe) where (?P<what>the \w+|it) is,? in words{_END}", r"where is \g<what>, in words"),
+    (rf"\bwhere (?:the|this) (?:touch|contact|press|imprint|spot|patch) is, in words{_END}|\bwhere is the (?:touch|contact|press|imprint|spot|patch),? in words{_END}",
+     "where is it, in words"),
+    (r"^(?:i['’]d like|i want|give me|please give me|i would like|i need) (?:one|a|a single) (?:short )?sentence (?:that|which) (?:names|gives|tells|says|states)(?: me)? (?P<a>the [^?,]+?),? and (?:also )?(?:says|tells|gives|states)(?: me)?(?P<words> in (?:plain )?words)? how deep (?:it|the \w+) (?:is|was|has)? ?(?:been )?(?:pressed|gone|sunk)?(?=[?.! ]*$)",
+     r"what is \g<a>, and how deep is it\g<words>"),
+    (r"^what would you (?:call|say)\b[^?]*? ?[–—:,-]+ (?P<a>[a-z]+) or (?P<b>[a-z]+)(?=[?.! ]*$)", r"\g<a> or \g<b>"),
+    (r"^(?P<aux>is|has|have|are) (?P<s>it|this|that|we|the \w+) (?:(?:gone|pressed|sunk|been pressed|got) )?(?P<a>more|less) than (?P<n>[\d.,]+ ?[a-zµ%²]+)(?P<deep> deep)? or (?P<b>more|less) than (?P=n)(?: deep)?(?=[?.! ]*$)",
+     r"is \g<s> \g<a> or \g<b> than \g<n>\g<deep>"),
+    (r"^(?:of|comparing|between) (?:the (?:contact['’]s )?two|both|the contact['’]s(?: two)?) (?:offsets|distances)[^,]*, (?:which is (?:the )?(?:bigger|larger|greater)[:,–—-]+ |is )(?:the )?(?P<a>sideways|lengthwise|horizontal|vertical)(?: one)? or (?:the )?(?P<b>sideways|lengthwise|horizontal|vertical)(?: \([^)]*\))?(?: one)?(?: (?:the )?(?:bigger|larger|greater))?(?=[?.! ]*$)",
+     r"is the offset larger \g<a> or \g<b>"),
+    (r"^(?:an? |the )?(?:minimum|least) of (?P<n>[\d.,]+ ?m?N)\b[^?]*?[.;:,–—-]+ (?:and )?(?:is|has|was) (?:that|it|this) (?:been )?(?:reached|met|satisfied|fulfilled|attained)(?: by (?:the|our) (?:\w+ )?force)?(?=[?.! ]*$)",
+     r"is the force at least \g<n>"),
+    (r"^(?:an? |the )?(?:maximum|most) of (?P<n>[\d.,]+ ?m?N)\b[^?]*?[.;:,–—-]+ (?:and )?(?:is|has|was) (?:that|it|this) (?:been )?(?:respected|kept|observed|honou?red|met)(?: by (?:the|our) (?:\w+ )?force)?(?=[?.! ]*$)",
+     r"is the force at most \g<n>"),
+    (r"\b(?:allowed|permitted|permissible|agreed|prescribed) (?:force )?limit\b", "limit"),
+    (r"^has (?P<s>the force|it|the grip) (?:climbed|risen|got|grown|gone up|gone|come up) to (?P<n>[^?]+?)(?: or (?:beyond|more|above|higher|over))?(?=[?.! ]*$)",
+     r"is \g<s> at least \g<n>"),
+    (r"^is (?P<s>the force|it) (?:at )?(?P<n>[^?]+? of the limit) or (?:beyond|more|above|higher|over)(?=[?.! ]*$)", r"is \g<s> at least \g<n>"),
+    (rf"^(?P<a>lift|go|raise|hoist|start) or (?P<b>wait|hold|stay|stop|don['’]t)[:,;–—-]+ *(?:what|which)(?: of (?:them|these|the two))? does {_BAND} (?:call for|say|want|demand|ask for|suggest|tell \w+ to do)(?=[?.! ]*$)",
+     r"say '\g<a>' if the force is in the band, otherwise '\g<b>'"),
+    (r"^(?=(?:should|must|does|ought) (?:the|this|our|my) (?:grip|force|squeeze) (?:have to |need to |to )?be (?:tightened|increased|raised|loosened|reduced|lowered|eased|relaxed)\b[^?]*\bor\b)",
+     "to get into the band, "),
+    (r"^how (?:heavy (?:can|could|may)|much (?:can|could|may)) (?:an? |the |this )?\w+(?: \w+)? (?:be|weigh),? in (?P<unit>\w+),? (?:and|so that|such that|while|before|without)\b[^?]*\b(?:slip|hold|held|drop|fall|slid)\w*\b[^?]*(?=[?.! ]*$)",
+     r"how many \g<unit> does the grip surely hold"),
+    (r"^(?P<way>sideways|lengthwise|horizontally|vertically), (?P<rest>by how (?:many|much) \w+ (?:are we|is it|is the (?:contact|touch)|does it (?:lie|sit)) off(?: the)? (?:cent(?:re|er)|middle))(?:,? (?:never mind|regardless of|no matter) (?:in )?(?:which|what|the) (?:direction|way|side))?(?=[?.! ]*$)",
+     r"\g<rest> \g<way>"),
+    (r"^(?:by )?how many (?P<unit>\w+) (?:are we|is it|is the (?:contact|touch)|does it (?:lie|sit)) off(?: the)? (?:cent(?:re|er)|middle),? (?P<way>sideways|lengthwise|horizontally|vertically)(?=[?.! ]*$)",
+     r"how many \g<unit> is it off \g<way>"),
+)  # fmt: skip
+_COMPILED = tuple((re.compile(pattern, re.I), plain) for pattern, plain in _MOVED)
+
+
+def with_parts_in_place(text: str) -> str:
+    """A question whose parts stand where others have them; the text itself where they do."""
+    for pattern, plain in _COMPILED:
+        text = pattern.sub(plain, text)
+    return text
