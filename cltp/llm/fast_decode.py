@@ -180,12 +180,6 @@ class FastDecoder:
         return F.rms_norm(x, width, self._norm, self._eps)
 
 
-def has_bfloat16() -> bool:
-    """Whether this processor has instructions for products of matrices in bfloat16."""
-    known = torch.cpu.get_capabilities()
-    return any(known.get(name, False) for name in ("avx512_bf16", "amx_bf16"))
-
-
 def _in_bfloat16(layer: _Layer) -> _Layer:
     """A layer whose matrices are in bfloat16; norms and biases stay as they are."""
     matrices = {name: getattr(layer, name).bfloat16() for name in ("qkv", "out", "gate_up", "down")}

@@ -28,8 +28,9 @@ from cltp.llm.causal_lm import CUE, Language
 from cltp.llm.constrained.decode import Constrained, ConstrainedDecoder, SlotDecision
 from cltp.llm.constrained.grammar import Grammar
 from cltp.llm.constrained.tokens import TextTokens
-from cltp.llm.fast_decode import FastDecoder, greedy, has_bfloat16
+from cltp.llm.fast_decode import FastDecoder, greedy
 from cltp.llm.tac3d_llm import Tac3dLlm
+from cltp.processor import has_bfloat16
 from cltp.tactile.force_scale import ForceScale
 from cltp.tactile.point_layout import PointLayout
 from cltp.texts.tokenizer import ACTIONS

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from scipy.spatial import Delaunay, KDTree
 
 from cltp.errors import TouchError
+from cltp.processor import one_blas_thread
 from cltp.sensing.calibration import WITHOUT_DOTS
 from cltp.sensing.frames import Frame
 from cltp.sensing.marker_dots import Dots, DotTracker
@@ -26,7 +27,6 @@ from cltp.tactile.sensors import SensorSpec
 from cltp.tactile.shear.contact_shape import grid_of
 from cltp.tactile.shear.field import ShearField
 from cltp.tactile.shear.noise import MIN_POINTS
-from cltp.threads import one_blas_thread
 
 MARGIN_PX, RING_PX = 2.0, 3.0
 """How far beyond a dot's radius it is painted over, and the width of the ring about that from

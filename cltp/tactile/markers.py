@@ -23,6 +23,7 @@ from scipy.interpolate import (
 from scipy.spatial import QhullError
 
 from cltp.errors import TouchError
+from cltp.processor import one_blas_thread
 from cltp.tactile.cloud import (
     NUM_POINTS,
     FloatArray,
@@ -35,7 +36,6 @@ from cltp.tactile.cloud import (
 )
 from cltp.tactile.sensor_noise import NoiseUnit
 from cltp.tactile.sensors import SensorSpec
-from cltp.threads import one_blas_thread
 
 
 def marker_positions_mm(sensor: SensorSpec) -> FloatArray:

@@ -13,7 +13,7 @@ from collections.abc import Iterator
 from contextlib import ExitStack, closing
 from pathlib import Path
 
-from cltp.threads import torch_threads
+from cltp.processor import torch_threads
 from primitives.errors import RobotError
 from sim.emulators.dynamixel.bus_process import DynamixelEmulator
 from sim.emulators.dynamixel.fingers import Linkage

@@ -22,9 +22,9 @@ from functools import cached_property
 import numpy as np
 import torch
 
+from cltp.processor import torch_threads
 from cltp.tactile.cloud import FloatArray, grid_axes_mm
 from cltp.tactile.sensors import SensorSpec
-from cltp.threads import torch_threads
 from sim.gel.gap import NO_BODY_MM
 from sim.gel.layer import ElasticLayer, GelMaterial
 from sim.gel.shear.coarse import CoarseShear

@@ -15,9 +15,9 @@ import numpy as np
 import torch
 from torch import Tensor
 
+from cltp.processor import torch_threads
 from cltp.tactile.cloud import FloatArray, Stamp
 from cltp.tactile.shear.field import ShearField
-from cltp.threads import torch_threads
 from sim.gel.shear.layer import Shear
 from sim.gel.shear.load import carry
 from sim.gel.shear.sensed import shear_field

@@ -6,8 +6,8 @@ import numpy as np
 import torch
 from numpy.typing import NDArray
 
+from cltp.processor import torch_threads
 from cltp.sensing.ball_presses import ProfileTable
-from cltp.threads import torch_threads
 from sim.gel.layer import ElasticLayer, Press, gel_of
 
 PITCH_MM = 0.1

@@ -21,7 +21,7 @@ from rich.console import Console
 from cltp.data.dataset import ContactDataset
 from cltp.data.dataset_writer import DatasetWriter, PackedShard, shard_stem
 from cltp.errors import TouchError
-from cltp.threads import torch_threads
+from cltp.processor import torch_threads
 from tacgrasp.base.errors import UsageError
 from tacgrasp.base.folders import check_folder
 from tacgrasp.base.worker_pool import num_cores, worker_pool

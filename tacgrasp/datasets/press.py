@@ -13,13 +13,13 @@ from numpy.typing import NDArray
 
 from cltp.atomic_write import replacing
 from cltp.errors import TouchError
+from cltp.processor import torch_threads
 from cltp.tactile.cloud import TactileCloud, cloud_from_heights, grid_axes_mm
 from cltp.tactile.markers import marker_cloud
 from cltp.tactile.sensor_noise import NoiseUnit, spread_of
 from cltp.tactile.sensors import SensorSpec, sensor_named
 from cltp.tactile.states import ContactState, Shape, Texture
 from cltp.texts.captions import caption, numeric_caption
-from cltp.threads import torch_threads
 from sim.gel.fine.fine import FineLayer
 from sim.gel.gap import NO_BODY_MM
 from sim.gel.layer import ElasticLayer, Press, gel_of

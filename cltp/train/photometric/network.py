@@ -8,8 +8,8 @@ from collections.abc import Callable
 import torch
 from torch import Tensor, nn
 
+from cltp.processor import torch_threads
 from cltp.sensing.photometric import GradientNet
-from cltp.threads import torch_threads
 
 HIDDEN = 32
 

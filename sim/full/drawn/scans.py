@@ -18,8 +18,8 @@ import numpy as np
 from scipy.interpolate import LinearNDInterpolator
 from scipy.ndimage import gaussian_filter, map_coordinates
 
+from cltp.processor import one_blas_thread
 from cltp.tactile.cloud import FloatArray
-from cltp.threads import one_blas_thread
 from sim.full.drawn.surface import Draws, Surface
 from sim.gel.gap import NO_BODY_MM
 

@@ -19,11 +19,11 @@ from torch import Tensor, nn
 
 from cltp.encoder.encoder import PRESETS, EncoderConfig, TactileEncoder
 from cltp.errors import TouchError
+from cltp.processor import torch_threads
 from cltp.tactile.cloud import cloud_of_pixels
 from cltp.tactile.encoder_input import encoder_input
 from cltp.tactile.point_layout import EVEN, PointLayout
 from cltp.tactile.sensors import SENSORS
-from cltp.threads import torch_threads
 from tacgrasp.base.errors import UsageError
 from tacgrasp.benchmarks.figures import number_table, times_ms, write_figures
 from tacgrasp.benchmarks.learning.plain_pointbert import PlainPointBert

@@ -23,7 +23,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from cltp.threads import torch_threads
+from cltp.processor import torch_threads
 from primitives.contract import Band, Contract
 from primitives.devices import Pose
 from primitives.errors import RobotError

@@ -15,7 +15,7 @@ from rich.console import Console
 from rich.table import Table
 from torch import Tensor
 
-from cltp.threads import torch_threads
+from cltp.processor import torch_threads
 from sim.gel.layer import ElasticLayer, GelMaterial, gel_of
 from tacgrasp.benchmarks.figures import Figure, median_ms, write_figures
 from tacgrasp.benchmarks.sensing.gel_fit import (

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter
 
 from cltp.errors import TouchError
-from cltp.threads import torch_threads
+from cltp.processor import torch_threads
 from sim.gel.layer import ElasticLayer, GelMaterial, Press
 
 FloatArray = NDArray[np.float64]

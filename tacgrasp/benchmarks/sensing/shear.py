@@ -18,7 +18,7 @@ from dataclasses import dataclass
 import torch
 from torch import Tensor
 
-from cltp.threads import torch_threads
+from cltp.processor import torch_threads
 from sim.gel.layer import ElasticLayer, GelMaterial, Press, gel_of
 from sim.gel.shear.layer import Shear, ShearLayer
 from tacgrasp.benchmarks.figures import Figure

@@ -17,8 +17,8 @@ import torch
 from numpy.typing import NDArray
 from torch import Tensor
 
+from cltp.processor import torch_threads
 from cltp.tactile.sensors import sensor_named
-from cltp.threads import torch_threads
 from sim.gel.layer import ElasticLayer, gel_of
 from sim.gel.shear.coarse import FACTOR, LOOP_TOL, CoarseShear
 from sim.gel.shear.layer import Shear, ShearLayer

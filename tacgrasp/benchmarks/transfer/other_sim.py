@@ -28,10 +28,10 @@ from cltp.evaluation.features import encode_batches
 from cltp.evaluation.probes import predict_with_heads
 from cltp.evaluation.scores import best_classes
 from cltp.evaluation.zero_shot import ClassPrompts
+from cltp.processor import torch_threads
 from cltp.tactile.point_layout import PointLayout
 from cltp.tactile.sensors import sensor_named
 from cltp.tactile.states import CLASSES
-from cltp.threads import torch_threads
 from cltp.train.text_targets import class_numbers
 from sim.independent.noise import disturbed
 from tacgrasp.base.errors import UsageError

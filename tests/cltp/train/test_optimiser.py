@@ -74,6 +74,25 @@ def test_muon_moves_kernels_and_matrices_by_steps_of_like_singular_values() -> N
         assert float(relative.max()) < 1.5
 
 
+def test_muon_steps_as_torch_does_whatever_the_processor_multiplies_in() -> None:
+    torch.manual_seed(2)
+    model = nn.Sequential(nn.Linear(48, 16, bias=False), nn.Linear(16, 40, bias=False))
+    theirs = [nn.Parameter(layer.weight.detach().clone()) for layer in model]
+    ours = Optimiser(model, MUON)
+    torchs = torch.optim.Muon(
+        theirs, weight_decay=MUON.weight_decay, adjust_lr_fn="match_rms_adamw", lr=1e-2
+    )
+    for _ in range(3):
+        for layer, other in zip(model, theirs, strict=True):
+            layer.weight.grad = torch.randn_like(other)
+            other.grad = layer.weight.grad.clone()
+        ours.step(1e-2)
+        torchs.step()
+
+    for layer, other in zip(model, theirs, strict=True):
+        torch.testing.assert_close(layer.weight, other, rtol=0, atol=5e-4)
+
+
 def test_what_is_looked_up_is_left_to_adamw() -> None:
     words = [_learned(schedule)[1].words.weight for schedule in (ADAMW, MUON)]
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 import torch
 
+from cltp.processor import torch_threads
 from cltp.tactile.sensors import SENSORS, sensor_named
-from cltp.threads import torch_threads
 from sim.gel import contact_solver, layer
 from sim.gel.layer import gel_of
 from sim.grasp.bodies import draw_body
