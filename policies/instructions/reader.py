@@ -17,6 +17,7 @@ from policies.instructions.quantities.numerals import in_digits
 from policies.instructions.refusal import refusal_of
 from policies.instructions.statements import condition_of, without_statements
 from policies.instructions.unproved_least import needs_of_others, unproved_least
+from policies.instructions.unread_bounds import unread_bound
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -154,7 +155,7 @@ def read_request(text: str) -> Request:
         thing=thing.group(1) if thing else "",
         in_place=in_place_of(numbers.rest),
         need=need_of(clean) if numbers.forces else None,
-        refused=_refusal(text, clean, numbers) or stated,
+        refused=_refusal(text, clean, numbers) or stated or unread_bound(numbers),
     )
 
 

@@ -53,6 +53,7 @@ _PLAIN = tuple((NumberPattern(pattern), plainly) for pattern, plainly in (
     (rf"\b(?:no|not) less (?:and|but|or),? (?:also )?(?:no|not) more than {_ONE}", r"no less than \g<one> and no more than \g<one>"),
     (rf"\b(?:no|not) more (?:and|but|or),? (?:also )?(?:no|not) less than {_ONE}", r"no less than \g<one> and no more than \g<one>"),
     (rf"\bneither (?:more nor less|less nor more) than {_ONE}", r"no less than \g<one> and no more than \g<one>"),
+    (rf"(?P<low>{NUMBER}\s*-?\s*(?:{UNIT})) (?:is|as|being) the (?:lower|bottom|minimum|least)(?: (?:limit|bound|end|one|force))?,? (?:and|while) (?P<high>{NUMBER}\s*-?\s*(?:{UNIT})) (?:(?:is|as|being) )?the (?:upper|top|maximum|most|highest)(?: (?:limit|bound|end|one|force))?", r"between \g<low> and \g<high>"),
     (rf"{_ONE} ?(?:>=|≥|=>) ?{_FORCE}", r"force <= \g<one>"),
     (rf"{_ONE} ?> ?{_FORCE}", r"force < \g<one>"),
     (rf"{_ONE} ?(?:<=|≤|=<) ?{_FORCE}", r"force >= \g<one>"),
@@ -167,12 +168,20 @@ def _as_bound(match: re.Match[str]) -> str:
     return f"{'at most' if match['most'] else 'at least'} {match['force']}"
 
 
+_ENTRY = re.compile(
+    r"(?:(?<=^)|(?<=[;,.?] ))(?:(?:object|fruit|berry|the|its) )?(?:weight|mass|width|size|diameter|length|temperature|colou?r|origin|variety|lot|batch|id|date|time) ?[:=?] ?(?:about )?[^;,.?]*(?:\.\d+[^;,.?]*)?(?:[;,.] ?|$)"
+)
+"""'max: 1 N; weight: 22 g': an entry of a list that is about the object."""
+
+
 def with_bounds_at_forces(text: str) -> str:
     """Leave out of a plain text what stands between a force and its bound and changes neither.
 
     Args:
         text: Plain text, its numbers in digits.
     """
+    if "max" in text or "min" in text or "force" in text:
+        text = _ENTRY.sub("", text)
     text = _OF_FORCE.sub(r"\g<force>", _WORDED.sub("", text))
     text = _TOLD_BEFORE.sub(r"\g<told>. ", text)
     text = _CALLED_LATER.sub(_as_bound, _BOUND_LATER.sub(_as_bound, text))
