@@ -753,6 +753,33 @@ def test_a_question_in_other_words_asks_the_same(question, query):
             "amount used %.",
         ),
         (
+            "The lid weighs a quarter of a kilo. Is it true that this grip isn't sure to hold it?",
+            "calculate holds_g < 250.",
+        ),
+        (
+            "Say 400 mN were added; would that bring the force up to the band's low end or more?",
+            "calculate force_n + 0.4 >= band_low_n.",
+        ),
+        (
+            "Say the object pushes in another 200 microns: what's the total depth in mm?",
+            "calculate depth_mm + 0.2 in mm.",
+        ),
+        (
+            "Is the whole footprint inside the pad, with none of it cut off at a border?",
+            "check whole.",
+        ),
+        (
+            "If the grip is weaker than the band, say by how many newtons; otherwise zero.",
+            "calculate max(0, band_low_n - force_n) in N.",
+        ),
+        ("How much of the pad, as a percentage, is not being touched?", "amount free_area %."),
+        ("Confirm or deny: the indentation does not exceed 300 µm.", "check depth <= #1 µm."),
+        ("Who made the thing that's touching the pad?", "unknown maker."),
+        (
+            "Give the distance from the contact to the pad's right-hand edge, in millimetres.",
+            "calculate pad_width_mm / 2 - x_mm in mm.",
+        ),
+        (
             "Expressed as a percentage of the band's lower edge, how high is the force?",
             "calculate 100 * force_n / band_low_n in %.",
         ),

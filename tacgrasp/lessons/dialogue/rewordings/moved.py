@@ -13,6 +13,7 @@ the same place (``phrases``).
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 
 _END = r"(?=[?.! ]*$)"
 _UNIT = r"(?P<unit>m?N|mm²?|[µu]m|cm²?|g|%|(?:milli|micro|centi)?(?:newtons?|met(?:re|er)s?)|microns?|grams?|per ?cent)"
@@ -24,7 +25,19 @@ _WHOLE = r"(?:100 ?(?:%|per ?cent)|a hundred (?:%|per ?cent)|one hundred (?:%|pe
 _SIDE = r"(?P<side>left|right|top|bottom|upper|lower|palm|fingertip)"
 _BAND = r"(?:the |our |its )?(?:force |target )?band"
 
-_MOVED = (
+
+def _to_edge(found: re.Match[str]) -> str:
+    unit = f", in {found['unit']}" if found["unit"] else found["behind"] or ""
+    return f"how far is the contact from the {found['side']} edge{unit}"
+
+
+def _by_how_much(found: re.Match[str]) -> str:
+    is_above = re.match(r"stronger|harder|above|over|higher|more", found["how"], re.I)
+    side = "above" if is_above else "below"
+    return f"by how {found['n']} is {found['a']} {side} {found['b']}, zero if it isn't"
+
+
+_MOVED: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     (rf"^(?P<head>[^?,]*\b(?:know|tell me|say|hear|learn|give me|told|see)),? in {_UNIT},? (?P<asks>{_ASKS}[^?.]*)",
      r"\g<asks>, in \g<unit>"),
     (rf"^(?:if|with|when|where|taking|counting|say|suppose) (?P<b>the [^,]+?) (?:(?:counts?|is|taken|is taken|makes?|represents?|counted|is set|being|equals?|stands? for|set) )*(?:as |to |at )?{_WHOLE}(?: (?:of it|mark))?,? (?:at )?(?:how many|what|which) (?:%|per ?cent\w*)(?: of (?:it|that))? (?:is|are|would|does|do|lies?|have) (?P<a>(?:the|our|my|your|this) [^?]+?)(?: (?:be|lie|stand|at|reach(?:ed)?|now|then|sit))*(?=[?.! ]*$)",
@@ -82,6 +95,31 @@ _MOVED = (
      r"\g<rest> \g<way>"),
     (r"^(?:by )?how many (?P<unit>\w+) (?:are we|is it|is the (?:contact|touch)|does it (?:lie|sit)) off(?: the)? (?:cent(?:re|er)|middle),? (?P<way>sideways|lengthwise|horizontally|vertically)(?=[?.! ]*$)",
      r"how many \g<unit> is it off \g<way>"),
+    (r"\bthe (?:thing|object|item|piece|part|body)(?: that| which)(?:['’]s| is| are) (?:touching|pressing (?:on|against|into)|pushing (?:on|against)|resting on|lying on|in contact with|under|on) (?:the |your )?(?:pad|gel|sensor|finger|fingertip)\b", "it"),
+    (r"\bthe (?:thing|object|item|piece|part)(?: that| which)? you(?:['’]re| are) (?:touching|holding|feeling|gripping)\b", "it"),
+    (r",? with (?:none|no part|nothing) of it (?:cut off|lost|missing|hanging over|outside)\b[^?]*(?=[?.! ]*$)", ""),
+    (rf"\bhow many (?P<unit>\w+) (?:above or below|below or above) the (?:pad['’]s )?(?:middle|cent(?:re|er))(?: line)? (?:does the (?:touch|contact) (?:sit|lie)|is (?:it|the (?:touch|contact)))(?:,? (?:sign ignored|ignoring the sign|without (?:a |the )?sign))?{_END}", r"how many \g<unit> is it off vertically"),
+    (rf"\bhow many (?P<unit>\w+) (?:left or right|right or left) of the (?:pad['’]s )?(?:middle|cent(?:re|er))(?: line)? (?:does the (?:touch|contact) (?:sit|lie)|is (?:it|the (?:touch|contact)))(?:,? (?:sign ignored|ignoring the sign|without (?:a |the )?sign))?{_END}", r"how many \g<unit> is it off sideways"),
+    (rf"^(?:please )?(?:give|tell|state|name)(?: me)? the distance,?(?: in (?P<unit>\w+),)? (?:from|between) (?:the (?:middle|cent(?:re|er)) of )?the (?:contact|touch|imprint) (?:to|and) the (?:pad['’]s )?{_SIDE}(?:-hand)? (?P<edge>edge|border|rim)(?:, the pad being [^?]*)?(?P<behind>,? in \w+)?{_END}",
+     r"how far is the contact from the \g<side> edge, in \g<unit>"),
+    (r"^(?P<head>how much of (?:the |your )?(?:pad|gel|sensor)),? (?:as a percentage|in per ?cent|as a per ?cent),? (?=is\b|are\b|stays\b|remains\b|does\b)", r"\g<head> "),
+    (rf"^if (?P<a>the (?:grip|force|squeeze)|it) is (?P<how>weaker|softer|lower|less|below|under|short of|stronger|harder|above|over|higher|more)(?: than)? (?P<b>(?:the |our )?(?:force |target )?(?:band|limit|range))[,:;] *(?:tell me |say )?by how (?P<n>many newtons|much)[;,.] *(?:and )?(?:if (?:it is(?:n['’]t| not)|not)|otherwise|else),? (?:say |answer |tell me )?(?:zero|0){_END}",
+     _by_how_much),
+    (rf"^the (?:force |target )?band\b[^.?]*[.;] *how wide is it(?P<unit>,? in \w+)?{_END}", r"how wide is the band\g<unit>"),
+    (rf"^(?:the )?(?P<a>(?:(?:present|current|felt|grip) )*force|depth|area) as (?:an? )?(?:%|per ?cent(?:age)?) of (?P<b>[^?,]+?){_END}", r"what percentage of \g<b> is the \g<a>"),
+    (rf"^(?:divide|take) the (?P<a>[^,?]+?) (?:divided )?by the (?P<b>[^,?]+?)(?: and|,|;)+ (?:give|tell)(?: me)? the (?:ratio|result|quotient)(?: as a (?:decimal|number))?{_END}", r"what is the \g<a> divided by the \g<b>"),
+    (r" ?\(take g ?= ?[^)]*\)", ""),
+    (r"^(?:going by|given|based on|from|using|by|with) the (?:object['’]s )?mass (?:that )?(?:you['’]ve been given|you were given|you know|i told you|(?:as )?given|told), ", ""),
+    (r"^(?:if|were|should) (?:the object|it|the thing) (?:were to )?(?:pushe?s?|goe?s?|sinks?|presse?s?|digs?) in (?:by )?another (?P<n>[\d.,]+ ?[a-zµ]+),? ", r"if it went \g<n> deeper, "),
+    (r"(?<=deeper, )what(?:['’]s| is| would be) the (?:total |new |whole )?depth(?: be)?,?(?P<unit> in \w+)?", r"how deep would it be\g<unit>"),
+    (rf"^(?:(?:please )?confirm or deny|true or false|right or wrong|correct or not)(?: please)?[:,–—-]+ *(?P<s>(?:the|it|there|we|this|that) [^?]+?){_END}", r"is it true that \g<s>"),
+    (rf"^(?:the|this|my|our|an?|it) ?[^.?;]*? ?weighs? (?:about )?(?P<m>\d[\d.,]* ?(?:k?g|grams?|kilos?|kilograms?|oz|ounces?|pounds?)|(?:a quarter of a|half a) (?:kilo(?:gram)?|pound))[.;,] *(?P<q>[^?.]*\b(?:hold|carry|lift|bear|support)) (?:it|that)(?P<rest>[^?.]*){_END}",
+     r"\g<q> \g<m>\g<rest>"),
+    (r"\bwould (?:that|it|this) bring (?:the force|it|us) (?:up )?to (?P<b>[^?]+?) or (?:higher|more|above|beyond)(?=[?.! ]*$)", r"would the force be at least \g<b>"),
+    (r"\bthe (?P<a>sideways|horizontal) (?P<o>offset|distance) (?P<v>bigger|larger|greater) than the (?:up-and-down|lengthwise|up and down)(?: one)?\b", r"the \g<a> \g<o> \g<v> than the vertical one"),
+    (r"^looking at how far it is off[- ]cent(?:re|er), ", ""),
+    (r"\bof the (?:pad['’]s )?(?:four )?edges,(?: [a-z, ]+?,)? which (?:one )?is (?P<near>nearest|closest) to\b", r"which of the four edges is \g<near> to"),
+    (r"\bwhich is the (?P<more>bigger|larger|greater|smaller) (?:number|value|figure)(?: just now| right now| now| at the moment)?, ", r"which is \g<more>, "),
 )  # fmt: skip
 _COMPILED = tuple((re.compile(pattern, re.I), plain) for pattern, plain in _MOVED)
 
