@@ -73,6 +73,11 @@ _CONTRACTIONS = (
 )  # fmt: skip
 
 _TYPED = (
+    (r"^(?:(?:uh+m?|um+|er|erm|hmm+|ah+|oh)\b[,.…]* )+(?=\w)", ""),
+    (
+        r"\bmin\.? ?/ ?max\.?(?: (?:grip(?:ping)?|force|squeeze))* ?[:=] ?(\.?\d[\d.,]*(?: ?m?n)?) ?/ ?(\.?\d[\d.,]* ?m?n)\b",
+        r"between \1 and \2",
+    ),
     (r"\b(?:un)?till? s?he(?= )", "until it"),
     (r"(?<=[a-z])_(?=[a-z])", " "),
     (

@@ -779,6 +779,26 @@ def test_a_question_in_other_words_asks_the_same(question, query):
             "Give the distance from the contact to the pad's right-hand edge, in millimetres.",
             "calculate pad_width_mm / 2 - x_mm in mm.",
         ),
+        ("One newton: does the squeeze clear that?", "check force > #1 N."),
+        (
+            "Which offset from the middle is the smaller one, the sideways or the lengthwise?",
+            "calculate 'sideways' if abs(x_mm) < abs(y_mm) else 'lengthwise'.",
+        ),
+        (
+            "If it had the heft of half a kilo, could I trust this pinch not to let it slip?",
+            "check stays #1 kg.",
+        ),
+        (
+            "More than 0.3 mm but less than 1.0 mm: does the depth fall between those two?",
+            "check depth #1 - #2 mm.",
+        ),
+        ("Does the middle of the contact lie outside the left half of the pad?", "check right."),
+        ("Does the imprint straddle the edge on the fingertip side?", "check cut bottom."),
+        ("Is the gel lying flush and undented, with nothing leaning on it?", "check empty."),
+        (
+            "As the crow flies, how many mm is the imprint away from dead centre?",
+            "amount distance mm.",
+        ),
         (
             "Expressed as a percentage of the band's lower edge, how high is the force?",
             "calculate 100 * force_n / band_low_n in %.",

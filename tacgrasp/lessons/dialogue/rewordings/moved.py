@@ -23,12 +23,23 @@ _SUPPOSED = (
 )
 _WHOLE = r"(?:100 ?(?:%|per ?cent)|a hundred (?:%|per ?cent)|one hundred (?:%|per ?cent))"
 _SIDE = r"(?P<side>left|right|top|bottom|upper|lower|palm|fingertip)"
+_NUMBER = r"(?:\d[\d.,]*|half an?|one|two|three|an?) ?(?:m?N|mm²?|[µu]m|cm²?|%|(?:milli|micro|centi)?(?:newtons?|met(?:re|er)s?)|microns?|per ?cent)"
+_MASS = r"(?:\d[\d.,]* ?(?:k?g|grams?|kilos?|kilograms?|oz|ounces?|pounds?)|(?:a quarter of a|half a) (?:kilo(?:gram)?|pound))"
 _BAND = r"(?:the |our |its )?(?:force |target )?band"
 
 
 def _to_edge(found: re.Match[str]) -> str:
     unit = f", in {found['unit']}" if found["unit"] else found["behind"] or ""
     return f"how far is the contact from the {found['side']} edge{unit}"
+
+
+_OTHER_HALF = {"left": "right", "right": "left", "upper": "lower", "lower": "upper"}
+
+
+def _other_half(found: re.Match[str]) -> str:
+    half = found["half"].lower()
+    other = _OTHER_HALF.get(half, "bottom" if half == "top" else "top")
+    return f"lie in the {other} half"
 
 
 def _by_how_much(found: re.Match[str]) -> str:
@@ -113,13 +124,34 @@ _MOVED: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     (r"^(?:if|were|should) (?:the object|it|the thing) (?:were to )?(?:pushe?s?|goe?s?|sinks?|presse?s?|digs?) in (?:by )?another (?P<n>[\d.,]+ ?[a-zµ]+),? ", r"if it went \g<n> deeper, "),
     (r"(?<=deeper, )what(?:['’]s| is| would be) the (?:total |new |whole )?depth(?: be)?,?(?P<unit> in \w+)?", r"how deep would it be\g<unit>"),
     (rf"^(?:(?:please )?confirm or deny|true or false|right or wrong|correct or not)(?: please)?[:,–—-]+ *(?P<s>(?:the|it|there|we|this|that) [^?]+?){_END}", r"is it true that \g<s>"),
-    (rf"^(?:the|this|my|our|an?|it) ?[^.?;]*? ?weighs? (?:about )?(?P<m>\d[\d.,]* ?(?:k?g|grams?|kilos?|kilograms?|oz|ounces?|pounds?)|(?:a quarter of a|half a) (?:kilo(?:gram)?|pound))[.;,] *(?P<q>[^?.]*\b(?:hold|carry|lift|bear|support)) (?:it|that)(?P<rest>[^?.]*){_END}",
+    (rf"^(?:the|this|my|our|an?|it) ?[^.?;]*? ?weighs? (?:about )?(?P<m>{_MASS})[.;,] *(?P<q>[^?.]*\b(?:hold|carry|lift|bear|support)) (?:it|that)(?P<rest>[^?.]*){_END}",
      r"\g<q> \g<m>\g<rest>"),
     (r"\bwould (?:that|it|this) bring (?:the force|it|us) (?:up )?to (?P<b>[^?]+?) or (?:higher|more|above|beyond)(?=[?.! ]*$)", r"would the force be at least \g<b>"),
     (r"\bthe (?P<a>sideways|horizontal) (?P<o>offset|distance) (?P<v>bigger|larger|greater) than the (?:up-and-down|lengthwise|up and down)(?: one)?\b", r"the \g<a> \g<o> \g<v> than the vertical one"),
     (r"^looking at how far it is off[- ]cent(?:re|er), ", ""),
     (r"\bof the (?:pad['’]s )?(?:four )?edges,(?: [a-z, ]+?,)? which (?:one )?is (?P<near>nearest|closest) to\b", r"which of the four edges is \g<near> to"),
     (r"\bwhich is the (?P<more>bigger|larger|greater|smaller) (?:number|value|figure)(?: just now| right now| now| at the moment)?, ", r"which is \g<more>, "),
+    (rf"^(?:were|if|with|suppose) (?P<n>{_NUMBER}) (?:(?:were|is|was|as) )?the (?:goal|target|aim)[^?]*?,? by how (?:many \w+|much)[^?]*\bwould the (?P<what>depth|force|area)\b[^?]*\bmiss (?:it|that){_END}", r"how far is the \g<what> from \g<n>"),
+    (r"^(?:(?:forget|ignore|never mind|leave out|skip)(?: about)? (?:the )?(?:sideways|lengthwise|left and right|up and down|depth|force|area|shape|position)|leave the (?:depth|force|area|shape|position) out of it)[:;.,] *(?=(?:how|what|where|which|is|does|are)\b)", ""),
+    (r"^not sideways and not lengthwise,? but as the crow flies, ", "in a straight line, "),
+    (r"^(?:in a straight line|as the crow flies), (?P<q>how (?:many \w+|far)\b[^?]*?\b(?:away )?from) (?:the )?(?:dead )?(?P<c>cent(?:re|er)|middle)", r"\g<q> the \g<c>"),
+    (rf"^(?:with|taking|using|if) (?P<n>{_NUMBER}) (?:as|is|being) (?:the |our |my |a )?(?:yardstick|reference|full scale|whole|benchmark), what percentage of (?:it|that) is (?P<a>[^?]+?){_END}", r"what percentage of \g<n> is \g<a>"),
+    (r"\bthe (?:straight-line |direct )?distance from the (?:pad['’]s )?cent(?:re|er) to the (?:contact|touch|imprint)\b", "the distance from the centre"),
+    (r"\bif the (?:footprint|contact|patch|imprint) were (?:reshaped into|made into|turned into) a square[^,]*, how (?:many \w+ )?long would (?:one|a|each) side be\b", "what side would a square of the same area have"),
+    (r"\bpress worth (?=in )", "press "),
+    (r"\b(?:has|have) not (?:yet )?been used(?: up)?(?: yet)?(?: \([^)]*\))?(?=[?.! ]*$)", "is unused"),
+    (rf"^more than (?P<a>{_NUMBER}) (?:but|and) less than (?P<b>{_NUMBER})[:,–—-]+ *(?P<aux>does|is) (?P<s>the \w+|it) (?:fall|lie|sit|come|stand)?s? ?(?:between|within|in)? ?(?:those|these|that|the two)?(?: two| range| limits)?{_END}", r"is \g<s> between \g<a> and \g<b>"),
+    (rf"^(?P<n>{_NUMBER})[:;–—-]+ *(?P<aux>does|has|is|do|have) (?P<s>the \w+|it|we|you) (?:clear(?:ed)?|top(?:ped)?|exceed(?:ed)?|beat(?:en)?|pass(?:ed)?|surpass(?:ed)?|over|above) (?:that|it|this){_END}", r"does \g<s> exceed \g<n>"),
+    (rf"^(?P<n>{_NUMBER})[:;–—-]+ *(?P<aux>does|has|is|do|have) (?P<s>the \w+|it|we|you) (?:fall short of|fallen short of|stay(?:ed)? (?:under|below)|below|under|short of|undercut) (?:that|it|this){_END}", r"is \g<s> below \g<n>"),
+    (r"^is the (?:gel|pad|sensor)(?: lying)? (?:flush|undented|flat|unpressed)\b[^?]*", "is the gel untouched"),
+    (rf"^both (?P<a>[a-z]+) and (?P<b>[a-z]+)[:,;–—-]+ *(?:does|is|do|are) [^?]*\b(?:both|boxes|true|hold|apply|the case)\b[^?]*{_END}", r"is it both \g<a> and \g<b>"),
+    (rf"\bstraddles? the (?:boundary|edge|border|rim)(?: of the (?:pad|gel))?(?: (?:at|on) the {_SIDE}(?: (?:end|side))?)?", r"run off the \g<side> edge"),
+    (r"\b(?:lie|lies|be|is|sit|fall) outside the (?P<half>left|right|upper|lower|top|bottom) half\b", _other_half),
+    (rf"^if (?:it|the \w+) (?:weighed|weighs|were|was|had (?:the heft|a (?:mass|weight)) of) (?P<m>{_MASS}),? (?P<q>(?:would|will|could|does|can|do)\b[^?]*\b(?:hold|carry|lift|bear|support)) (?:it|that)(?: up)?{_END}", r"\g<q> \g<m>"),
+    (rf"^if (?:it|the \w+) (?:weighed|weighs|were|was|had (?:the heft|a (?:mass|weight)) of) (?P<m>{_MASS}),? (?P<aux>would|will|could) it (?P<how>(?:surely |still |securely )?)be (?:held|carried|safe)(?: up)?{_END}", r"\g<aux> this grip \g<how>hold \g<m>"),
+    (r"\b(?:can|could|may|do|would|should) (?:i|we|you) (?:trust|count on|rely on|expect) (?:this|the|our|my) (?:grip|pinch|hold|grasp|squeeze|gripper) not to (?:let (?:it|that) (?:slip|slither|slide|fall|drop)\w*(?: (?:out|away))?|drop (?:it|that)|lose (?:it|that))", "would this grip hold it"),
+    (r"^skipping (?:the )?(?:figures|numbers|digits), ", "in words, "),
+    (r"\bwhich offset(?: from the (?:middle|cent(?:re|er)))? is the (?P<how>smaller|larger|bigger|greater)(?: one)?, ", r"which offset is \g<how>, "),
 )  # fmt: skip
 _COMPILED = tuple((re.compile(pattern, re.I), plain) for pattern, plain in _MOVED)
 
