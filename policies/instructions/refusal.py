@@ -143,6 +143,7 @@ _ARM = re.compile(
     r"back|home|away|sideways|in|out)(?:wards?)?(?: (?:a (?:bit|little)|again|more|slightly|(?:by )?"
     r"[\d.,]+ ?(?:mm|cm|m|millimet\w+|centimet\w+|degrees?|°)))?|"
     r"(?:move|turn|rotate|drive|jog)(?: (?:the|your) (?:arm|gripper|robot|hand|fingers?|tool))?|"
+    r"(?:spin|twirl|swing|wave|twist|whirl) (?:the |your )(?:wrist|arm|hand|gripper|fingers)\b[^.;]*|"
     r"(?:close|shut) (?:the |your )?(?:gripper|fingers|hand|jaws))[.! ]*(?:please|now)?[.! ]*"
 )
 
@@ -156,7 +157,7 @@ def _commands_the_arm(text: str) -> str:
 def _contradicts(text: str) -> str:
     match = re.search(
         r"\bwithout (?:applying |using |exerting |putting )?any (?:force|pressure|grip|squeeze)\b|\b(?:with|apply|use|exert|put) (?:no|zero|0|absolutely no) (?:force|pressure|grip|squeeze|contact)\b(?! (?:more|greater|above|over|beyond|than|higher))"
-        r"|\bwithout (?:force|pressure|closing|using your fingers|moving|gripping|holding|contact)\b",
+        r"|\bwithout (?:force|pressure|closing|using your fingers|moving|gripping|holding|contact)\b(?! (?:it |this |that |the \w+ )?(?:(?:too|so|very|overly|that) )?(?:hard|tight|firm|rough|strong|harsh|much|fierce))",
         text,
     )
     if match is None:

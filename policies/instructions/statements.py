@@ -305,7 +305,9 @@ _LEAD = re.compile(
     r"(?:(?:and|but|so|then|only|please|now|ok|okay|well|robot|hey|hi|hello|today|even)[ ,]*)*"
 )
 """What may stand before a condition with which a sentence begins."""
-_ANY_TIME = re.compile(r"as soon as (?!(?:i|we)\b)")
+_ANY_TIME = re.compile(
+    r"as soon as (?:possible|practicable|you|it|there|convenient|that|this|ready)\b"
+)
 """A condition of time, which is not seen, and no signal of a person."""
 _SUPPOSED = re.compile(
     r"\b(?:it|they|this|that|which|he|she) (?:only |also |even |just )?(?!always)[a-z]{2,}s$|\b(?:what (?:would |will )?happens?|wonder|grateful|glad|happy|lovely|nice|great|appreciate|better|best|like it|love it|pleased|kind|cool|even|as|see|check|tell me|know|care|mind|no matter|never mind|worry|bruises?|breaks?|bursts?|slips?|falls?|or|like|sure)$"

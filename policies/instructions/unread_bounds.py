@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import re
 
-from policies.instructions.quantities import Quantities
+from policies.instructions.quantities import MARK, Quantities
 
 _UPPER = re.compile(
     r"\b(?:limits?\b|max(?:imum|imal)?\b|caps?\b|ceiling|(?:the|my|our|your) most\b|exceed\w*|breaking point|point of no return|"
@@ -27,6 +27,14 @@ _LOWER = re.compile(
     rf"\b(?:{_LOWER_ALONE}|min(?:imum|imal)?\b|floor\b|lower (?:limit|bound|end)|lowest|(?:weaker|looser|softer|less|lower) than (?:that|this|it)\b|(?:not|never) (?:\w+ ){{0,3}}(?:under|below)\b)"
 )
 _LOWER_BESIDE_MOST = re.compile(rf"\b(?:{_LOWER_ALONE}|(?:get|be) that (?:loose|weak|soft)\b)")
+_MORE_THAN = re.compile(
+    r"\b(?:more than|over|above|beyond|exceed\w*|past|higher than|harder than|in excess of)\b"
+)
+_DENIED = re.compile(
+    r"\b(?:not|never|no|nothing|nobody|none|neither|nor|forbid\w*|refus\w*|avoid\w*|prohibit\w*|cannot)\b"
+    r"(?![^.;:!?#]*\b(?:slip|drop|fall|los[et]|hesitat|afraid|shy|mind|worry|problem|matter|break|bruis|crush|hurt|damag|gentl|soft|careful)\w*)[^.;:!?#]*#"
+)
+_NO_DENIAL = re.compile(r"\b(?:not|never|no|nothing|nobody|neither)\b")
 _OF_FORCE = re.compile(r"\b(?:milli)?newtons?\b")
 _BARE = re.compile(r"\d+\.\d+")
 
@@ -36,16 +44,27 @@ def unread_bound(numbers: Quantities) -> str:
     kinds = {force.kind for force in numbers.forces}
     if not kinds:
         return _without_unit(numbers)
-    found = None if "most" in kinds else _UPPER.search(numbers.rest)
+    found = None if "most" in kinds else _UPPER.search(numbers.rest) or _denied_more(numbers)
     if not found and "least" not in kinds:
         lower = _LOWER_BESIDE_MOST if "most" in kinds else _LOWER
         found = lower.search(numbers.rest)
     if not found:
         return ""
     return (
-        f"{found[0]!r} may bound the force, and no bound was understood; say 'at most ...', "
+        f"{found[0].replace(MARK, '...')!r} may bound the force, and no bound was understood; say 'at most ...', "
         "'at least ...' or 'use ...' with the number behind it"
     )
+
+
+def _denied_more(numbers: Quantities) -> re.Match[str] | None:
+    """A denial before 'more than 1 N' that was read as a least force: it may be a limit."""
+    is_more = any(
+        force.kind == "least"
+        and _MORE_THAN.search(force.words)
+        and not _NO_DENIAL.search(force.words)
+        for force in numbers.forces
+    )
+    return _DENIED.search(numbers.rest) if is_more else None
 
 
 def _without_unit(numbers: Quantities) -> str:

@@ -73,6 +73,15 @@ _CONTRACTIONS = (
 )  # fmt: skip
 
 _TYPED = (
+    (r"\bthere(?: i|['’])s no (?:earthly |good )?reason not to\b", "please"),
+    (
+        r"(?:\bnot|\bnever|n['’]t)\b[^.;,#\d]{0,40}?\b(?:any )?other (?:way|manner) than (?=\w+)",
+        " hold it ",
+    ),
+    (
+        r"\bhalf (?:of )?(?=(?:the|these|those|my|our) (?:\w+ )?(?:berries|fruits|boxes|people|others|customers|eggs|time)\b)",
+        "some of ",
+    ),
     (r"^(?:(?:uh+m?|um+|er|erm|hmm+|ah+|oh)\b[,.…]* )+(?=\w)", ""),
     (
         r"\bmin\.? ?/ ?max\.?(?: (?:grip(?:ping)?|force|squeeze))* ?[:=] ?(\.?\d[\d.,]*(?: ?m?n)?) ?/ ?(\.?\d[\d.,]* ?m?n)\b",

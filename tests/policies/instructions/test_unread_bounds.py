@@ -21,8 +21,18 @@ MOST = [
     ("The most froce it may feel is 1.4 N.", 1.4),
     ("We agred on a cap for the gripp. Its 1.2 N.", 1.2),
     ("The fruit has been frozen: 0.7 N is its breaking point; be lower than that.", 0.7),
+    ("At no time, whatever happens, go over 1.25 N.", 1.25),
+    ("Never, and I mean never, go above 1.25 N.", 1.25),
+    ("You are not, repeat not, to go over 1.25 N.", 1.25),
+    ("It should not, in my opinion, feel more than 1.25 N.", 1.25),
+    ("You shouldn't ever, not in a million years, use more than 1.25 N.", 1.25),
+    ("Under no circumstances, even if it slips a bit, use more than 3.4 N.", 3.4),
+    ("Not for one second should you, even by accident, go over 1.25 N.", 1.25),
+    ("Nothing, but nothing, above 1.25 N.", 1.25),
+    ("On no account, not even briefly, squeeze with more than 1.25 N.", 1.25),
 ]
 LEAST = [
+    ("Don't drop it, use more than 1 N.", 1.0),
     ("0.6 N and 45 mm; the former is the least grip I accept, the latter how far to lift.", 0.6),
     (
         "By weak I mean anything short of 0.9 N, so never weaker than that.",
