@@ -91,7 +91,9 @@ _CORRECTED = re.compile(
 )
 _WHAT_IF = re.compile(r"(?:(?:and|but|so)[, ]+)*(?:what )?(?:if|suppose|assuming) ", re.I)
 _BESIDE_IT = re.compile(
-    r"\b(in|inside|within|over|above|under|below) (?:it|that)(?=[?.! ]*$)", re.I
+    r"\b(in|inside|within|over|above|under|below) (?:it|that|this)"
+    r"(?: (?:force|value|number|figure|mark))?(?=[?.! ]*$)",
+    re.I,
 )
 """'Would we be in it?', behind a band that is told."""
 
@@ -108,7 +110,7 @@ def told_in(text: str, about: Meaning | None = None) -> tuple[Told, str] | None:
     """
     text = with_plain_numbers(text.strip())
     if not _ASKS.match(text):
-        text = _RUN_ON.sub(r"\g<told>. ", text)
+        text = _ASKS_BEHIND.sub(r"\g<told>. ", _RUN_ON.sub(r"\g<told>. ", text))
     if _WHAT_IF.match(text):
         text = text.rstrip("? ")
     corrected = _CORRECTED.fullmatch(text)
@@ -134,9 +136,7 @@ def told_in(text: str, about: Meaning | None = None) -> tuple[Told, str] | None:
     if mass_g is None and limit_n is None and band_n is None:
         return None
     told = Told(mass_g=mass_g, band_n=band_n, limit_n=limit_n, is_supposed=bool(found["if"]))
-    asked = found["asked"] or ""
-    if (band_n is None) != (limit_n is None):
-        asked = _BESIDE_IT.sub(rf"\1 the {'limit' if band_n is None else 'band'}", asked)
+    asked = _of_what_is_told(found["asked"] or "", told)
     is_asked = "?" in asked or _ASKS.match(asked)  # 'the limit is 3 N, it is glass' asks nothing
     return told, asked if is_asked else ""
 
@@ -218,6 +218,13 @@ _RUN_ON = re.compile(
 )
 """'My hamster weighs 30 g could you hold it'."""
 
+_ASKS_BEHIND = re.compile(
+    r"(?P<told>\d[^,;?]*), (?=(?:are|is|do|does|will|would|can|could|have|has|am) (?:we|it|you|i|"
+    r"they|this|that|the (?:grip|force))\b(?: \w+){2})",
+    re.I,
+)
+"""'It cracks at 0.8 N, are we still below that force'."""
+
 _IS_THAT = re.compile(
     r"(?:it|this|that)(?:['’]s| is| weighs| has)\b[^.?!]*\d+ ?(?:k?g|grams?|kilos?)\b", re.I
 )
@@ -267,7 +274,14 @@ def _told_freely(text: str) -> tuple[Told, str] | None:
     elif forces:
         return None
     is_told = told.mass_g is not None or told.band_n is not None or told.limit_n is not None
-    return (told, asked) if is_told else None
+    return (told, _of_what_is_told(asked, told)) if is_told else None
+
+
+def _of_what_is_told(asked: str, told: Told) -> str:
+    """A question with the name of what was told before it: 'are we below that?'."""
+    if (told.band_n is None) == (told.limit_n is None):
+        return asked
+    return _BESIDE_IT.sub(rf"\1 the {'limit' if told.band_n is None else 'band'}", asked)
 
 
 def _told_before(about: Meaning | None) -> str:

@@ -781,6 +781,16 @@ def test_a_question_in_other_words_asks_the_same(question, query):
         ),
         ("One newton: does the squeeze clear that?", "check force > #1 N."),
         (
+            "how many millimetres toward the palm does it sit from pad center, negative if it's "
+            "toward the fingertip",
+            "amount y mm.",
+        ),
+        ("Does the patch leave the sensor at the right border?", "check cut right."),
+        (
+            "does the contact go past the left or the right edge, either one",
+            "calculate cut_left or cut_right.",
+        ),
+        (
             "Which offset from the middle is the smaller one, the sideways or the lengthwise?",
             "calculate 'sideways' if abs(x_mm) < abs(y_mm) else 'lengthwise'.",
         ),

@@ -33,6 +33,13 @@ def _to_edge(found: re.Match[str]) -> str:
     return f"how far is the contact from the {found['side']} edge{unit}"
 
 
+def _to_end(found: re.Match[str]) -> str:
+    other = "fingertip" if found["end"].lower() == "palm" else "palm"
+    end = "palm" if other == "fingertip" else "fingertip"
+    unit = f", in {found['unit']}" if found["unit"] else ""
+    return f"how far towards the {end} is it, minus for the {other}{unit}"
+
+
 _OTHER_HALF = {"left": "right", "right": "left", "upper": "lower", "lower": "upper"}
 
 
@@ -123,7 +130,7 @@ _MOVED: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     (r"^(?:going by|given|based on|from|using|by|with) the (?:object['’]s )?mass (?:that )?(?:you['’]ve been given|you were given|you know|i told you|(?:as )?given|told), ", ""),
     (r"^(?:if|were|should) (?:the object|it|the thing) (?:were to )?(?:pushe?s?|goe?s?|sinks?|presse?s?|digs?) in (?:by )?another (?P<n>[\d.,]+ ?[a-zµ]+),? ", r"if it went \g<n> deeper, "),
     (r"(?<=deeper, )what(?:['’]s| is| would be) the (?:total |new |whole )?depth(?: be)?,?(?P<unit> in \w+)?", r"how deep would it be\g<unit>"),
-    (rf"^(?:(?:please )?confirm or deny|true or false|right or wrong|correct or not)(?: please)?[:,–—-]+ *(?P<s>(?:the|it|there|we|this|that) [^?]+?){_END}", r"is it true that \g<s>"),
+    (rf"^(?:please )?confirm or deny(?: please)?[:,–—-]+ *(?P<s>(?:the|it|there|we|this|that) [^?]+?){_END}", r"is it true that \g<s>"),
     (rf"^(?:the|this|my|our|an?|it) ?[^.?;]*? ?weighs? (?:about )?(?P<m>{_MASS})[.;,] *(?P<q>[^?.]*\b(?:hold|carry|lift|bear|support)) (?:it|that)(?P<rest>[^?.]*){_END}",
      r"\g<q> \g<m>\g<rest>"),
     (r"\bwould (?:that|it|this) bring (?:the force|it|us) (?:up )?to (?P<b>[^?]+?) or (?:higher|more|above|beyond)(?=[?.! ]*$)", r"would the force be at least \g<b>"),
@@ -152,6 +159,16 @@ _MOVED: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     (r"\b(?:can|could|may|do|would|should) (?:i|we|you) (?:trust|count on|rely on|expect) (?:this|the|our|my) (?:grip|pinch|hold|grasp|squeeze|gripper) not to (?:let (?:it|that) (?:slip|slither|slide|fall|drop)\w*(?: (?:out|away))?|drop (?:it|that)|lose (?:it|that))", "would this grip hold it"),
     (r"^skipping (?:the )?(?:figures|numbers|digits), ", "in words, "),
     (r"\bwhich offset(?: from the (?:middle|cent(?:re|er)))? is the (?P<how>smaller|larger|bigger|greater)(?: one)?, ", r"which offset is \g<how>, "),
+    (rf",? (?:in )?{_UNIT}(?:,| and)? not (?:in )?(?:mm|millimet\w+|microns?|m?N|newtons?|millinewtons?|grams?|inches)(?=[?.! ]*$)", r", in \g<unit>"),
+    (r"^(?:(?:i|we) )?(?:need|want) (?:a|the|some) (?:one-liner|summary|line|readout|report|overview)(?: for [^:]*)?: ", ""),
+    (r"^[^,?]*\bcan['’]?t see\b[^,?]*?,? so (?:just )?(?=tell me\b)", ""),
+    (r"\btell me (?:if|whether) (?P<s>it|anything|something) (?P<v>touches|is touching)(?P<o> something| anything| it)?(?: or not)?(?:,? yes ?(?:/|or) ?no)?(?=[?.! ]*$)", "is anything touching it"),
+    (rf"\b(?:goe?s?|reach(?:es)?|extends?|spills?|runs?) (?:past|over|beyond|off) the left or the right (?:edge|border|rim)(?:,? either(?: one)?)?{_END}", "run off the left edge or the right edge"),
+    (r"^i want to trust [^,?]*? so tell me, ", ""),
+    (rf"^(?:by )?how (?:many (?P<unit>\w+)|far) (?:in )?towards? the (?P<end>palm|(?:finger)?tip)(?: (?:side|end))? (?:does (?:it|the \w+) (?:sit|lie)|is (?:it|the \w+))(?: (?:away )?from (?:the )?(?:pad(?:['’]s)? )?(?:cent(?:re|er)|middle))?,? (?:and )?(?:\(?use )?(?:a )?(?:negative|minus)(?: sign)? (?:if|when|for|meaning|where)[^?]*{_END}", _to_end),
+    (rf"\bleaves? the (?:pad|sensor|gel) (?:at|on|over|across|by) the {_SIDE}(?:-hand)? (?:border|edge|rim|side)\b", r"run off the \g<side> edge"),
+    (r"\b(?P<what>position|place|location|depth|area) as a word\b", r"\g<what> in words"),
+    (r"\bthe indent\b", "the indentation"),
 )  # fmt: skip
 _COMPILED = tuple((re.compile(pattern, re.I), plain) for pattern, plain in _MOVED)
 

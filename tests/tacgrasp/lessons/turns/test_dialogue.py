@@ -50,6 +50,14 @@ def test_what_is_told_with_a_question_counts_afterwards_too(talk):
     assert "above" in ask("Is it safe to lift?")
 
 
+def test_a_question_behind_a_comma_is_answered(talk):
+    ask = talk()
+    said = ask("the wafer cracks at about 0.8 N, are we still below that force")
+    assert said == "No, probably: the force is 0.83 N."
+    assert ask("it weighs 20 g, will it slip").startswith("No")
+    assert ask("it weighs 30 g, it is glass") == "Noted: the object weighs 30 g."
+
+
 def test_a_band_behind_if_counts_for_that_question_alone(talk):
     ask = talk()
     assert "below" in ask("If the band is 2 to 3 N, is it safe to lift?")
