@@ -35,6 +35,10 @@ _DENIED = re.compile(
     r"(?![^.;:!?#]*\b(?:slip|drop|fall|los[et]|hesitat|afraid|shy|mind|worry|problem|matter|break|bruis|crush|hurt|damag|gentl|soft|careful)\w*)[^.;:!?#]*#"
 )
 _NO_DENIAL = re.compile(r"\b(?:not|never|no|nothing|nobody|neither)\b")
+_HARMED = re.compile(
+    r"^[^#]*#[^.;:!?#]*\b(?<!the )(?<!this )(?<!that )(?<!a )(?<!my )(?:crushed|squashed|burst|bruised|broke|ruined|damaged|destroyed|split|mangled)\b[^#]*$"
+)
+"""'The 1.6 N we used in the pilot crushed every raspberry.'"""
 _OF_FORCE = re.compile(r"\b(?:milli)?newtons?\b")
 _BARE = re.compile(r"\d+\.\d+")
 
@@ -44,7 +48,11 @@ def unread_bound(numbers: Quantities) -> str:
     kinds = {force.kind for force in numbers.forces}
     if not kinds:
         return _without_unit(numbers)
-    found = None if "most" in kinds else _UPPER.search(numbers.rest) or _denied_more(numbers)
+    found = (
+        None
+        if "most" in kinds
+        else (_UPPER.search(numbers.rest) or _denied_more(numbers) or _HARMED.search(numbers.rest))
+    )
     if not found and "least" not in kinds:
         lower = _LOWER_BESIDE_MOST if "most" in kinds else _LOWER
         found = lower.search(numbers.rest)

@@ -30,6 +30,7 @@ MOST = [
     ("Not for one second should you, even by accident, go over 1.25 N.", 1.25),
     ("Nothing, but nothing, above 1.25 N.", 1.25),
     ("On no account, not even briefly, squeeze with more than 1.25 N.", 1.25),
+    ("The 1.6 N we used in the pilot crushed every berry we picked. Pick up this one.", 1.6),
 ]
 LEAST = [
     ("Don't drop it, use more than 1 N.", 1.0),
@@ -44,6 +45,7 @@ LEAST = [
 ]
 READ = [
     ("Mind the leaves and use 0.9 N.", 0.9),
+    ("Use 1 N on the bruised one.", 1.0),
     ("Hold it with 0.9 N for a minute.", 0.9),
     ("1 N. Don't go over the edge of the table.", 1.0),
     ("Hold with 0.8 N, no more and no less.", 0.8),
