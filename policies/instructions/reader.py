@@ -6,6 +6,7 @@ import re
 from dataclasses import dataclass, replace
 
 from policies.instructions.english import words
+from policies.instructions.english.denials import without_interposed
 from policies.instructions.english.spelling import spelled
 from policies.instructions.english.text import plain, sentences
 from policies.instructions.manner import Manner, has_manner, read_manner
@@ -142,7 +143,9 @@ _SHORT = re.compile(
 
 def read_request(text: str) -> Request:
     """Read an instruction as a person wrote it."""
-    clean = with_bounds_at_forces(in_digits(spelled(plain(text[:MAX_CHARACTERS]))))
+    clean = with_bounds_at_forces(
+        in_digits(spelled(without_interposed(plain(text[:MAX_CHARACTERS]))))
+    )
     clean = without_other_forces(clean)
     clean, numbers, stated = _meant(clean)
     verb = words.HOLD.search(_A_LITTLE.sub("", numbers.rest))

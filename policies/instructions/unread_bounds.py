@@ -31,8 +31,8 @@ _MORE_THAN = re.compile(
     r"\b(?:more than|over|above|beyond|exceed\w*|past|higher than|harder than|in excess of)\b"
 )
 _DENIED = re.compile(
-    r"\b(?:not|never|no|nothing|nobody|none|neither|nor|forbid\w*|refus\w*|avoid\w*|prohibit\w*|cannot)\b"
-    r"(?![^.;:!?#]*\b(?:slip|drop|fall|los[et]|hesitat|afraid|shy|mind|worry|problem|matter|break|bruis|crush|hurt|damag|gentl|soft|careful)\w*)[^.;:!?#]*#"
+    r"\b(?:not|never|no|nothing|nobody|none|neither|nor|forbid\w*|refus\w*|avoid\w*|prohibit\w*|refrain\w*|abstain\w*|desist\w*|cannot)\b"
+    r"(?! matter\b)(?![^,.;:!?#(–—-]{0,40}\b(?:slip|drop|fall|los[et]|hesitat|afraid|shy|mind|worry|problem|break|bruis|crush|hurt|damag|gentl|soft|careful)\w*)[^.;:!?#]*#"
 )
 _NO_DENIAL = re.compile(r"\b(?:not|never|no|nothing|nobody|neither)\b")
 _HARMED = re.compile(

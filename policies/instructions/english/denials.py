@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import re
 
+from policies.instructions.english import words
+
 NO_CASE = r"(?:(?:in|by|at|under|on|for) (?:absolutely )?no (?:means|cases?|times?|way|events?|accounts?|conditions?|circumstances?|moment|point|price))"
 """'By no means', 'in no case'."""
 FORBIDDEN = r"(?:forbid(?:s|den|ding)?|forbade|prohibit(?:s|ed|ing)?|bann?(?:ed|ing)?|disallow(?:s|ed)?|outlaw(?:s|ed)?|veto(?:es|ed)?)"
@@ -41,3 +43,23 @@ def is_denied(before: str, after: str = "") -> bool:
     part = before.rpartition(" and ")[2]
     denials = len(_NOT.findall(part if _NOT.search(part) else before))
     return (denials + bool(_FORBIDDEN_BEHIND.match(after))) % 2 == 1
+
+
+_BEGUN = (
+    r"(?<!why )(?<!if )(?<!or )(?<!whether )(?:not|never|nothing|nobody|neither|refrain(?:ing)?|abstain(?:ing)?|no (?:time|account|circumstances?|case|means|way|event|need|more|reason))"
+    r"(?: (?:you|i|we|it|the grip|the force|ever|even|again|to|from|should|must|may|can|will|want|wants|allow|like|need|for|a|an|one|once|single|second|moment|instant|dare|trying|try|in|any|robot|please|repeat|whatsoever|be|going))*"
+)
+_GOES_ON = (
+    rf"(?!(?:\w+ ){{0,2}}?(?:not|never|no|but|instead)\b)(?:\w+ ){{0,2}}?(?:{words.any_of('hold')}|use|using|apply|applying|exert|exerting|press|go|going|get|feel|exceed|let|touch|put|make|"
+    r"more|over|above|beyond|in excess|higher|harder|less|under|below|lower|weaker|anything|a force)\b"
+)
+_INTERPOSED = re.compile(
+    rf"\b(?P<denial>{_BEGUN})(?: ?,+ | \(| [-–—]+ )(?!(?:{words.any_of('hold')}|use|using|but (?!nothing|never)|and (?!i\b|this\b|that\b|it\b))\b)"
+    rf"[^,;.:!?()#\d–—]{{2,60}}?(?:, ?|\) ?| [-–—]+ )(?={_GOES_ON})"
+)
+"""'It should not, in my opinion, feel more than 1 N.'"""
+
+
+def without_interposed(text: str) -> str:
+    """A plain text whose denials stand beside what they deny."""
+    return _INTERPOSED.sub(r"\g<denial> ", text)

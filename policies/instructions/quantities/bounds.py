@@ -168,11 +168,6 @@ def _as_bound(match: re.Match[str]) -> str:
     return f"{'at most' if match['most'] else 'at least'} {match['force']}"
 
 
-_INTERPOSED = NumberPattern(
-    r"\b(?P<denial>(?:not|never|nothing|nobody|neither|no \w+)(?: (?!but\b)\w+){0,5}?), (?:(?!but (?!nothing|never|no)|and (?!i mean)|(?:use|using|hold|grip|grasp|squeeze|lift|pick|apply|with|because|so)\b)[a-z']+ ?){1,10}, "
-    rf"(?=(?:\w+ ){{0,5}}?(?:more|over|above|beyond|exceed(?:ing)?|past|higher|harder|in excess of|less|under|below)\b[^,;.\d]{{0,20}}{NUMBER})"
-)
-"""'It should not, in my opinion, feel more than 1 N.'"""
 _ENTRY = re.compile(
     r"(?:(?<=^)|(?<=[;,.?] ))(?:(?:object|fruit|berry|the|its) )?(?:weight|mass|width|size|diameter|length|temperature|colou?r|origin|variety|lot|batch|id|date|time) ?[:=?] ?(?:about )?[^;,.?]*(?:\.\d+[^;,.?]*)?(?:[;,.] ?|$)"
 )
@@ -187,7 +182,6 @@ def with_bounds_at_forces(text: str) -> str:
     """
     if "max" in text or "min" in text or "force" in text:
         text = _ENTRY.sub("", text)
-    text = _INTERPOSED.sub(r"\g<denial> ", text)
     text = _OF_FORCE.sub(r"\g<force>", _WORDED.sub("", text))
     text = _TOLD_BEFORE.sub(r"\g<told>. ", text)
     text = _CALLED_LATER.sub(_as_bound, _BOUND_LATER.sub(_as_bound, text))
