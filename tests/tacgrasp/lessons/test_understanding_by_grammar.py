@@ -780,6 +780,8 @@ def test_a_question_in_other_words_asks_the_same(question, query):
             "calculate pad_width_mm / 2 - x_mm in mm.",
         ),
         ("One newton: does the squeeze clear that?", "check force > #1 N."),
+        ("Is it, in your view, deeper than 0.4 mm?", "check depth > #1 mm."),
+        ("Without looking it up, is it safe to lift, or what?", "check force within."),
         (
             "how many millimetres toward the palm does it sit from pad center, negative if it's "
             "toward the fingertip",

@@ -169,6 +169,9 @@ _MOVED: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     (rf"\bleaves? the (?:pad|sensor|gel) (?:at|on|over|across|by) the {_SIDE}(?:-hand)? (?:border|edge|rim|side)\b", r"run off the \g<side> edge"),
     (r"\b(?P<what>position|place|location|depth|area) as a word\b", r"\g<what> in words"),
     (r"\bthe indent\b", "the indentation"),
+    (r"^(?:ok(?:ay)? (?:robot|gripper|machine)|now that (?:it|that|this|everything) (?:has|is) \w+|without (?:looking|guessing|checking)\b[^,?\d]*|off the top of your head), ", ""),
+    (r",? or what(?=[?.! ]*$)", ""),
+    (r", (?:as we speak|roughly speaking|generally speaking|do you (?:think|reckon|suppose)|would you say|at this (?:very )?(?:moment|point|instant)|right now|honestly|in your (?:own )?(?:view|opinion|estimation)), ", " "),
 )  # fmt: skip
 _COMPILED = tuple((re.compile(pattern, re.I), plain) for pattern, plain in _MOVED)
 
