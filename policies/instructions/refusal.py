@@ -123,7 +123,7 @@ def refusal_of(text: str, whole: str = "") -> str:
     for find, reason in (
         (_harms, "it would harm a living being: {}"),
         (
-            lambda rest: _destroys(rest) or _destroys_with(whole),
+            lambda rest: _destroys(rest) or _destroys_with(whole) or _ensures_harm(whole),
             "it would destroy what is held: {}",
         ),
         (_releases, "it asks to let go: {}"),
@@ -222,6 +222,18 @@ def _destroys(text: str) -> str:
                 continue  # 'while chopping the others'
             return match.group().strip()
     return ""
+
+
+_ENSURES_HARM = re.compile(
+    r"\b(?:make (?:very )?sure|ensure|see to it|take care|your (?:job|task|aim|goal) is)(?: that)? (?:it|this|the \w+(?: \w+)?) (?:is|gets|ends up|comes out) "
+    r"(?:\w+ly |well |nicely )?(?:bruised|crushed|squashed|damaged|broken|burst|split|mashed|flattened|dented|destroyed|ruined|pulped)\b"
+)
+
+
+def _ensures_harm(whole: str) -> str:
+    """'Make sure that it is bruised'; '' for none, and where it is not to be."""
+    match = _ENSURES_HARM.search(whole)
+    return match[0] if match and not re.search(r" (?:not|never|less|hardly) ", match[0]) else ""
 
 
 def _destroys_with(whole: str) -> str:

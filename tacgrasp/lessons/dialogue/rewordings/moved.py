@@ -172,6 +172,14 @@ _MOVED: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     (r"^(?:ok(?:ay)? (?:robot|gripper|machine)|now that (?:it|that|this|everything) (?:has|is) \w+|without (?:looking|guessing|checking)\b[^,?\d]*|off the top of your head), ", ""),
     (r",? or what(?=[?.! ]*$)", ""),
     (r", (?:as we speak|roughly speaking|generally speaking|do you (?:think|reckon|suppose)|would you say|at this (?:very )?(?:moment|point|instant)|right now|honestly|in your (?:own )?(?:view|opinion|estimation)), ", " "),
+    (r"^by how many (?P<unit>\w+) do (?P<a>(?:the |our )?[^?]*?) and (?P<b>(?:the |our )[^?]*?) differ(?=[?.! ]*$)", r"how far is \g<a> from \g<b>, in \g<unit>"),
+    (r"\bthe depth of (?:this|the) (?:contact|touch|press|imprint) differ\b", "the depth differ"),
+    (r"^(?P<sign>counting (?:right|left|up|down)ward as positive), give (?:me )?the (?P<way>sideways|lengthwise) displacement of the (?:contact|touch)(?P<unit>,? in [µ\w]+)?", r"what is the \g<way> offset\g<unit>, \g<sign>"),
+    (r" \((?:along |from )?palm to fingertip\)", ""),
+    (r"\bfarther from the pad['’]s cent(?:re|er)", "farther from the centre"),
+    (r"^choose one: the contact is in the (?P<a>top|upper|left) half ?(?:/|,|;|or) ?(?:or )?the contact is in the (?P<b>bottom|lower|right) half\b", r"is the contact in the \g<a> half or in the \g<b> half"),
+    (rf"^is at least one of (?:these|the following|them|the two) true: (?P<a>[^?:]+?),? or (?P<b>[^?:]+?){_END}", r"does at least one hold: \g<a>, or \g<b>"),
+    (r"^starting from the (?:pad['’]s )?(?:middle|cent(?:re|er)),? would i have to go (?P<side>right|left) to reach the (?:contact|touch)(?:['’]s (?:middle|cent(?:re|er)))?", r"is the contact \g<side> of the middle"),
 )  # fmt: skip
 _COMPILED = tuple((re.compile(pattern, re.I), plain) for pattern, plain in _MOVED)
 

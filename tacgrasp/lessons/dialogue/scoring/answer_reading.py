@@ -176,9 +176,10 @@ class AnswerReading:
         """
         if name in CLASSES:
             return _class_words(name, self.text)
-        head, colon, _ = self.text.partition(":")
-        if colon and (named := [each for each in choices if each.casefold() == head.casefold()]):
-            return named
+        head, colon, _ = self.text.casefold().partition(":")
+        ends = [each for each in choices if f" {head}".endswith(f" {each.casefold()}")]
+        if colon and ends:
+            return ends
         phrases = _PHRASES.get(name) or _phrases_of(choices)
         text = self.text.replace("not cut", "whole")
         found = []

@@ -152,6 +152,7 @@ def test_a_choice_by_a_condition_is_one_of_its_words():
     assert not right("Centre.", "choice", "'centre' if x_mm > 9 else 'off-centre'")
     larger = "'limit' if force_n < 99 else 'force'"
     assert right("Limit: the force is 1 N and the limit is 2 N.", "choice", larger)
+    assert right("Force limit: the force is 1 N and the limit is 2 N.", "choice", larger)
     assert not right("Force: the force is 1 N and the limit is 2 N.", "choice", larger)
     assert not right("The force is 1 N and the limit is 2 N.", "choice", larger)
     assert right("It is nearer to the palm.", "choice", "'palm' if y_mm > -5 else 'fingertip'")
