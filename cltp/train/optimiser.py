@@ -77,7 +77,7 @@ class Optimiser:
 class _Muon(torch.optim.Muon):
     """Muon as torch has it, whose own step always multiplies in bfloat16.
 
-    On a processor without instructions for that a step of CLTP's encoder took 8 s instead of 0.6.
+    On a processor without instructions for that a step of CLTP's encoder took 8 s instead of 1.
     """
 
     @torch.no_grad()

@@ -179,7 +179,7 @@ class AnswerReading:
         head, colon, _ = self.text.casefold().partition(":")
         ends = [each for each in choices if f" {head}".endswith(f" {each.casefold()}")]
         if colon and ends:
-            return ends
+            return [max(ends, key=len)]  # 'not a ring' ends with 'a ring'
         phrases = _PHRASES.get(name) or _phrases_of(choices)
         text = self.text.replace("not cut", "whole")
         found = []
