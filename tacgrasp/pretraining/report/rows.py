@@ -162,7 +162,7 @@ ROWS: Mapping[str, RowRecipe] = {
         optimiser="muon",
     ),
     "cltp_muon_curves_clean": RowRecipe(
-        about="the same, half of whose contacts are felt without noise",
+        about="cltp-muon-curves, half of whose contacts are felt without noise",
         method="cltp",
         preset="grid_curves",
         recipe=CltpRecipe(clean=0.5),
