@@ -49,6 +49,7 @@ def _linear_algebra() -> ThreadpoolController:
     return ThreadpoolController()
 
 
+@functools.cache
 def has_bfloat16() -> bool:
     """Whether this processor has instructions for products of matrices in bfloat16.
 

@@ -252,10 +252,8 @@ def _clause_cues(clause: str) -> Iterator[Cue]:
     for start, end, sign, level, turns in sorted(found):
         before = masked[max(0, start - _REACH) : start]
         after_and = before.rpartition(" and ")[2]
-        ends = (
-            _DENIAL.search(after_and) or denied == -sign
-        )  # 'without rough grips and with soft ones'
-        before = after_and if ends else before
+        is_wish = denied == -sign  # 'without rough grips and with soft ones'
+        before = after_and if is_wish or _DENIAL.search(after_and) else before
         denials = list(_DENIAL.finditer(before)) if turns else []
         if not denials and before.endswith("as ") and _AS_BEFORE.match(clause[end:]):
             continue

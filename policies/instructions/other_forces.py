@@ -66,9 +66,8 @@ _BOUND_OF = tuple(
     )
 )
 """'The limit on the egg is 3 N', 'for eggs at most 1 N', '1 N for the egg'."""
-_HELD = re.compile(
-    rf"\b{words.any_of('hold')}(?: up| on| onto| hold of)? (?:(?:the|a|an|this|that|my|our|your|these|those|another|some) )?(?:\w+ ){{0,2}}?(?P<object>{OBJECT})"
-)
+_HOLDS = rf"\b{words.any_of('hold')}(?: up| on| onto| hold of)? (?:(?:the|a|an|this|that|my|our|your|these|those|another|some) )?(?:\w+ ){{0,2}}?"
+_HELD = re.compile(rf"{_HOLDS}(?P<object>{OBJECT})")
 """'Pick the ripe berry'."""
 _AN_OBJECT = rf"(?:for|on|to) (?:the |this |these |my |our |an? )?{OBJECT}"
 _GIVEN = NumberPattern(
@@ -145,7 +144,7 @@ def need_of(text: str) -> SaidNeed | None:
 
 
 _KNOWN = rf"(?:straw ?berr(?:y|ies)|berr(?:y|ies)|{words.any_of('other_object')})\b"
-_CHOSEN = _HELD.pattern.replace(OBJECT, _KNOWN)
+_CHOSEN = rf"{_HOLDS}(?P<object>{_KNOWN})"
 _LEFT = rf"(?:(?:the|a|an|this|that|my|our|your|these|those|any) )?(?:\w+ )?(?P<left>{_KNOWN})"
 _IN_PLACE = (
     re.compile(

@@ -53,7 +53,6 @@ _PLAIN = tuple((NumberPattern(pattern), plainly) for pattern, plainly in (
     (rf"\b(?:no|not) less (?:and|but|or),? (?:also )?(?:no|not) more than {_ONE}", r"no less than \g<one> and no more than \g<one>"),
     (rf"\b(?:no|not) more (?:and|but|or),? (?:also )?(?:no|not) less than {_ONE}", r"no less than \g<one> and no more than \g<one>"),
     (rf"\bneither (?:more nor less|less nor more) than {_ONE}", r"no less than \g<one> and no more than \g<one>"),
-    (rf"(?P<low>{NUMBER}\s*-?\s*(?:{UNIT})) (?:is|as|being) the (?:lower|bottom|minimum|least)(?: (?:limit|bound|end|one|force))?,? (?:and|while) (?P<high>{NUMBER}\s*-?\s*(?:{UNIT})) (?:(?:is|as|being) )?the (?:upper|top|maximum|most|highest)(?: (?:limit|bound|end|one|force))?", r"between \g<low> and \g<high>"),
     (rf"{_ONE} ?(?:>=|≥|=>) ?{_FORCE}", r"force <= \g<one>"),
     (rf"{_ONE} ?> ?{_FORCE}", r"force < \g<one>"),
     (rf"{_ONE} ?(?:<=|≤|=<) ?{_FORCE}", r"force >= \g<one>"),

@@ -779,6 +779,10 @@ def test_a_question_in_other_words_asks_the_same(question, query):
             "Give the distance from the contact to the pad's right-hand edge, in millimetres.",
             "calculate pad_width_mm / 2 - x_mm in mm.",
         ),
+        (
+            "Give the distance from the contact to the pad's right-hand edge, in microns.",
+            "calculate pad_width_mm / 2 - x_mm in µm.",
+        ),
         ("One newton: does the squeeze clear that?", "check force > #1 N."),
         ("Is it, in your view, deeper than 0.4 mm?", "check depth > #1 mm."),
         ("Without looking it up, is it safe to lift, or what?", "check force within."),

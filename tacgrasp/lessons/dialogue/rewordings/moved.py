@@ -119,7 +119,7 @@ _MOVED: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     (rf"\bhow many (?P<unit>\w+) (?:above or below|below or above) the (?:pad['’]s )?(?:middle|cent(?:re|er))(?: line)? (?:does the (?:touch|contact) (?:sit|lie)|is (?:it|the (?:touch|contact)))(?:,? (?:sign ignored|ignoring the sign|without (?:a |the )?sign))?{_END}", r"how many \g<unit> is it off vertically"),
     (rf"\bhow many (?P<unit>\w+) (?:left or right|right or left) of the (?:pad['’]s )?(?:middle|cent(?:re|er))(?: line)? (?:does the (?:touch|contact) (?:sit|lie)|is (?:it|the (?:touch|contact)))(?:,? (?:sign ignored|ignoring the sign|without (?:a |the )?sign))?{_END}", r"how many \g<unit> is it off sideways"),
     (rf"^(?:please )?(?:give|tell|state|name)(?: me)? the distance,?(?: in (?P<unit>\w+),)? (?:from|between) (?:the (?:middle|cent(?:re|er)) of )?the (?:contact|touch|imprint) (?:to|and) the (?:pad['’]s )?{_SIDE}(?:-hand)? (?P<edge>edge|border|rim)(?:, the pad being [^?]*)?(?P<behind>,? in \w+)?{_END}",
-     r"how far is the contact from the \g<side> edge, in \g<unit>"),
+     _to_edge),
     (r"^(?P<head>how much of (?:the |your )?(?:pad|gel|sensor)),? (?:as a percentage|in per ?cent|as a per ?cent),? (?=is\b|are\b|stays\b|remains\b|does\b)", r"\g<head> "),
     (rf"^if (?P<a>the (?:grip|force|squeeze)|it) is (?P<how>weaker|softer|lower|less|below|under|short of|stronger|harder|above|over|higher|more)(?: than)? (?P<b>(?:the |our )?(?:force |target )?(?:band|limit|range))[,:;] *(?:tell me |say )?by how (?P<n>many newtons|much)[;,.] *(?:and )?(?:if (?:it is(?:n['’]t| not)|not)|otherwise|else),? (?:say |answer |tell me )?(?:zero|0){_END}",
      _by_how_much),
