@@ -92,7 +92,13 @@ def main(argv: Sequence[str]) -> int:
         policy = load_llm(flags.weights or flags.llm.dir)
     try:
         with path_in_errors(flags.file):
-            talk = Conversation(contact.cloud, policy.talker, contract=contract, mass_g=flags.mass)
+            talk = Conversation(
+                contact.cloud,
+                policy.talker,
+                contract=contract,
+                mass_g=flags.mass,
+                in_contact=contact.in_contact,
+            )
     except ValueError as error:
         raise UsageError(f"--mass: {error}") from None
     console = make_console()

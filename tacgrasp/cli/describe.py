@@ -38,28 +38,29 @@ def main(argv: Sequence[str]) -> int:
     flags = parse(DescribeFlags, argv, prog="tacgrasp describe")
     from cltp.sensing.touch_files import path_in_errors
     from cltp.tactile.contact.raised_pad import is_raised
-    from cltp.tactile.contact.single_cloud import is_touched
     from tacgrasp.console import make_console, working
     from tacgrasp.playback.describe import (
         describe,
         describe_by_model,
         describe_in_numbers,
         make_reader,
+        touches,
     )
     from tacgrasp.policy_factory import default_weights, load_llm, shipped_weights
 
     console = make_console()
     contact = flags.read()
-    cloud, contract = contact.cloud, contact.contract
+    cloud, contract, in_contact = contact.cloud, contact.contract, contact.in_contact
     with path_in_errors(flags.file):
-        touched = is_touched(cloud)
+        touched = touches(cloud, in_contact)
     if flags.json:
         reader = make_reader(flags.weights or default_weights())
-        sys.stdout.write(json.dumps(describe_in_numbers(cloud, reader), indent=2) + "\n")
+        numbers = describe_in_numbers(cloud, reader, in_contact)
+        sys.stdout.write(json.dumps(numbers, indent=2) + "\n")
         return 0
     if contact.about:
         console.print(f"step      {contact.about}")
-    for line in describe(cloud):
+    for line in describe(cloud, in_contact):
         console.print(line)
     if is_raised(cloud) or not touched:
         return 0
@@ -74,6 +75,6 @@ def main(argv: Sequence[str]) -> int:
         contract = flags.contract_in_words(contact, flags.instruction)
     with working("loading the language model"):
         model = load_llm(weights)
-    for line in describe_by_model(cloud, model, contract):
+    for line in describe_by_model(cloud, model, contract, in_contact):
         console.print(line)
     return 0

@@ -28,12 +28,15 @@ class ContactFile(NamedTuple):
             for other files, and in episodes of older versions.
         about: Which step of the episode it is, for people; '' for other files.
         episode: The episode; None for other files.
+        in_contact: Whether something touches, by the run's test against the gel with open fingers;
+            None where none was possible, and for other files.
     """
 
     cloud: TactileCloud
     contract: Contract | None
     about: str = ""
     episode: Episode | None = None
+    in_contact: bool | None = None
 
 
 def read_contact(
@@ -81,5 +84,5 @@ def _step_contact(path: Path, number: int | None) -> ContactFile:
             target = None if contract is None else step.under(contract)
             label = PHASE_LABELS.get(step.phase, "")
             about = f"{number} of 0 to {last} {label}".rstrip()
-            return ContactFile(step.cloud, target, about, episode)
+            return ContactFile(step.cloud, target, about, episode, step.in_contact)
     raise UsageError(f"{path} has no step {number}; its steps are 0 to {last}")

@@ -16,7 +16,6 @@ from cltp.llm.generation import Talker
 from cltp.tactile.cloud import TactileCloud
 from cltp.tactile.contact.partial_pad import is_partial, partial_text
 from cltp.tactile.contact.raised_pad import is_raised, raised_text
-from cltp.tactile.contact.single_cloud import is_touched
 from cltp.tactile.encoder_input import encoder_input
 from cltp.tactile.states import NO_CONTACT_STATE
 from policies.llm.policy import flag_reason
@@ -31,6 +30,7 @@ from tacgrasp.playback.describe import (
     RAISED,
     cloud_flags,
     contact_flags,
+    touches,
     unadvised_text,
     zero_flags,
 )
@@ -83,6 +83,7 @@ class Conversation:
         talker: The model.
         contract: Contract that questions may be about; None for none.
         mass_g: Mass of the object [g]; None where it is not known.
+        in_contact: As ``tacgrasp.playback.describe.touches`` takes it.
 
     Raises:
         TouchError: The gel rises where a contact would press it in, or the weights' heads have no
@@ -97,12 +98,13 @@ class Conversation:
         *,
         contract: Contract | None = None,
         mass_g: float | None = None,
+        in_contact: bool | None = None,
     ) -> None:
         spoken = SpokenContact(NO_CONTACT_STATE, {}, {})
         self._flags: tuple[str, ...] = ()
         self._unread = f"I can't say: {raised_text(cloud)}." if is_raised(cloud) else ""
         self._unadvised = ""
-        is_in_contact = not self._unread and is_touched(cloud)
+        is_in_contact = not self._unread and touches(cloud, in_contact)
         mass_g = None if mass_g is None else float(mass_g)
         told = AskedScene(contract=contract, mass_g=mass_g, sensor=cloud.sensor)
         if self._unread:

@@ -88,14 +88,30 @@ def zero_flags(cloud: TactileCloud) -> list[str]:
     return [PARTIAL] * is_partial(cloud) + [LOWERED] * is_lowered(cloud)
 
 
-def describe(cloud: TactileCloud) -> list[str]:
-    """Measured facts of a contact, a line each.
+def touches(cloud: TactileCloud, in_contact: bool | None = None) -> bool:
+    """Whether something touches the gel.
+
+    Args:
+        cloud: The cloud.
+        in_contact: What a test against the gel with open fingers has shown, which knows its drift
+            (``tacgrasp.rig.gel_sense``); None tests the cloud alone, in which a soft press may be
+            drift.
+
+    Raises:
+        TouchError: The cloud is tested, and its z has the wrong sign.
+    """
+    return is_touched(cloud) if in_contact is None else in_contact
+
+
+def describe(cloud: TactileCloud, in_contact: bool | None = None) -> list[str]:
+    """Measured facts of a contact, a line each; ``in_contact`` as for ``touches``.
 
     Raises:
         TouchError: The cloud can't be measured, or its z has the wrong sign.
     """
     sensor, mark = cloud.sensor, cloud.force_scale.mark or "calibrated"
-    state = contact_state(cloud, in_contact=is_touched(cloud))
+    is_in_contact = touches(cloud, in_contact)
+    state = contact_state(cloud, in_contact=is_in_contact)
     lines = [
         f"sensor    {sensor.name}, {sensor.width_mm:.1f} × {sensor.height_mm:.1f} mm",
         f"points    {len(cloud.points_mm)}",
@@ -109,7 +125,7 @@ def describe(cloud: TactileCloud) -> list[str]:
     if is_lowered(cloud):
         lines.append(f"zero      don't act on this: {lowered_text(cloud)}")
     if state.depth is None or state.position is None or state.area is None:
-        return [*lines, f"contact   {_unmeasured(cloud)}"]
+        return [*lines, f"contact   {_unmeasured(cloud, is_in_contact)}"]
     return [
         *lines,
         f"position  {state.position} ({state.x_mm:+.2f}, {state.y_mm:+.2f} mm)",
@@ -122,9 +138,9 @@ def describe(cloud: TactileCloud) -> list[str]:
     ]
 
 
-def _unmeasured(cloud: TactileCloud) -> str:
+def _unmeasured(cloud: TactileCloud, is_in_contact: bool) -> str:
     """Why there are no numbers of a contact."""
-    if is_touched(cloud):
+    if is_in_contact:
         return "something presses the most of the pad; it can't be measured directly"
     if is_lowered(cloud):
         return "unknown: nothing stands out, but the zero is lost"
@@ -134,12 +150,15 @@ def _unmeasured(cloud: TactileCloud) -> str:
     )
 
 
-def describe_in_numbers(cloud: TactileCloud, reader: TouchReader | None) -> dict[str, Any]:
+def describe_in_numbers(
+    cloud: TactileCloud, reader: TouchReader | None, in_contact: bool | None = None
+) -> dict[str, Any]:
     """The same for programs: words, numbers with their intervals, and warnings.
 
     Args:
         cloud: The cloud.
         reader: Reads it by weights; None measures it directly, without shape, texture, intervals.
+        in_contact: As for ``touches``.
 
     Raises:
         TouchError: The cloud can't be measured, or its z has the wrong sign.
@@ -149,7 +168,7 @@ def describe_in_numbers(cloud: TactileCloud, reader: TouchReader | None) -> dict
     """
     if is_raised(cloud):
         return _in_numbers(cloud, None, NO_CONTACT_STATE, flags=[RAISED])
-    is_in_contact = is_touched(cloud)
+    is_in_contact = touches(cloud, in_contact)
     if is_partial(cloud) and not is_in_contact:
         return _in_numbers(cloud, None, NO_CONTACT_STATE, flags=zero_flags(cloud))
     state, flags = contact_state(cloud, in_contact=is_in_contact), []
@@ -241,14 +260,16 @@ def unadvised_text(cloud: TactileCloud, state: ContactState) -> str:
     return apart_text(cloud, state.shape)
 
 
-def describe_by_model(cloud: TactileCloud, model: LlmPolicy, contract: Contract) -> list[str]:
-    """Description and advice of the language model, a line each.
+def describe_by_model(
+    cloud: TactileCloud, model: LlmPolicy, contract: Contract, in_contact: bool | None = None
+) -> list[str]:
+    """Description and advice of the language model, a line each; ``in_contact`` as for ``touches``.
 
     Raises:
         LimitError: The contract is refused.
     """
     description = model.describe(cloud)
-    decision = model.decide(Observation(cloud=cloud), contract)
+    decision = model.decide(Observation(cloud=cloud, in_contact=in_contact), contract)
     read = model.read(cloud)
     doubt = differing(contact_state(cloud, in_contact=True), read.numbers)
     if unadvised := unadvised_text(cloud, read.state):

@@ -9,14 +9,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from cltp.tactile.contact.single_cloud import is_touched
 from primitives.contract import Band
 from tacgrasp.__main__ import main
 from tacgrasp.base.errors import UsageError
 from tacgrasp.episodes import EpisodeWriter, StepPhase, StepRecord
 from tacgrasp.episodes.record import Need
 from tacgrasp.playback.contact_file import read_contact
+from tacgrasp.playback.describe import describe_in_numbers
 from tests.fakes.contracts import contract
-from tests.fakes.episode_samples import header, step_record
+from tests.fakes.episode_samples import header, press, step_record
 
 FORCES = re.compile(r"(?:Goal |understood: .*, )(\d\.\d\d) ?- ?(\d\.\d\d) N")
 FIRST, SOFTER = contract(1.0, 2.0, 2.5), contract(0.5, 1.0, 1.25)
@@ -73,6 +75,23 @@ def test_a_step_of_an_episode_is_described(
     printed = capsys.readouterr().out
     assert printed.startswith("step      1 of 0 to 3\nsensor    gelsight_mini")
     assert "Goal 0.50 - 1.00 N" in printed
+
+
+@pytest.mark.parametrize("is_felt", [True, False, None])
+def test_a_soft_press_is_felt_where_the_run_has_felt_it(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], is_felt: bool | None
+) -> None:
+    """A single cloud may show drift where the run, which knew its untouched gel, felt a berry."""
+    soft = replace(step_record(0), cloud=press(1.0, -1.0, 0.08), in_contact=is_felt)
+    path = recorded(tmp_path, soft)
+    contact = read_contact(path, "gelsight_mini")
+    assert contact.in_contact is is_felt
+    assert not is_touched(contact.cloud)  # alone
+    assert describe_in_numbers(contact.cloud, None, is_felt)["contact"] is bool(is_felt)
+    assert main(["describe", str(path)]) == 0
+    assert ("contact   none" in capsys.readouterr().out) is not bool(is_felt)
+    assert main(["ask", str(path), "Does anything touch the pad?"]) == 0
+    assert capsys.readouterr().out.startswith("Yes" if is_felt else "No")
 
 
 def test_words_are_read_under_the_task_of_the_episode(
