@@ -86,8 +86,15 @@ _ALLOWED = NumberPattern(
     r" (?:if (?:it|you|the (?:force|grip)) |to |for you to )|(?:i|we) do not (?:mind|care) if (?:it|you|the (?:force|grip)) )"
     rf" ?(?:(?!not\b|never\b|only\b|no\b)\w+ ){{0,4}}?(?:over|above|beyond|past|more than|exceed(?:s|ing)?|higher than) {ONE_FORCE}"
     r"(?:,? (?:if|when|where|as) (?:\w+ )?(?:you )?(?:need|needed|necessary|must|have|like|want|required)(?: (?:to|be))?\b)?"
+    r"(?!(?: (?:if|when|where|as)[^.;,]{0,20})?,? (?:but|and|yet|though) (?:please |do )?(?:not|never)(?: (?:with|go|use))? (?:less|below|under|lower)\b)"
 )
 """'You may go over 2 N if you need to': what is allowed is not asked for."""
+
+
+_COMPARED_ASIDE = re.compile(
+    rf",? which is (?:(?:a bit|a little|much|far|rather|somewhat|slightly) )?(?:more|less|firmer|softer|higher|lower|harder) than (?:what )?(?:i|we|you) (?:would |do |did |had to )?(?:use|used|need|needed|apply|take|took|try) (?:on|for|with) (?:an? |the |my |our )?(?:{words.any_of('other_object')}|raspberr(?:y|ies)|blackberr(?:y|ies)|blueberr(?:y|ies))\b"
+)
+"""'2 N, which is more than I would use on a raspberry'."""
 
 
 def without_other_forces(text: str) -> str:
@@ -96,6 +103,7 @@ def without_other_forces(text: str) -> str:
     Args:
         text: Plain text, its numbers in digits.
     """
+    text = _COMPARED_ASIDE.sub("", text)
     text = _LIFTED.sub("the usual grip will do", _ALLOWED.sub("the usual grip will do", text))
     for pattern in (_WEIGHT, _DEVICE):
         for match in reversed(list(pattern.finditer(text))):
@@ -146,7 +154,14 @@ def need_of(text: str) -> SaidNeed | None:
 _KNOWN = rf"(?:straw ?berr(?:y|ies)|berr(?:y|ies)|{words.any_of('other_object')})\b"
 _CHOSEN = rf"{_HOLDS}(?P<object>{_KNOWN})"
 _LEFT = rf"(?:(?:the|a|an|this|that|my|our|your|these|those|any) )?(?:\w+ )?(?P<left>{_KNOWN})"
+_ELSE = r"(?!(?:it|that|this|one|them|these|those|straw ?berr\w*|berr\w*|fruits?|object|thing|item|piece|specimen|sample|force|grip|firm|gentle|soft|good)\b)[a-z]+"
 _IN_PLACE = (
+    re.compile(
+        rf"\b(?:forget|never mind|ignore|skip|leave|leave out) (?:about )?{_LEFT}[;,.:!]? (?:(?:and|but|instead|please|just) )*(?:(?:i|we) (?:want|need|would like) you to )?{words.any_of('hold')}(?: up| hold of)? (?:the|that|this|my|our|a|an) (?:\w+ )??(?P<object>{_ELSE})(?=[.;,!?]| instead| please|$)"
+    ),
+    re.compile(
+        rf"\b(?:want|need|take|meant?) (?:the |an? |that |this |my |our )?(?P<object>{_KNOWN}),? (?:and )?not {_LEFT}"
+    ),
     re.compile(
         rf"{_CHOSEN}[^.;:!?]{{0,30}}?,? (?:instead of|rather than|in place of|and not|not) {_LEFT}"
     ),

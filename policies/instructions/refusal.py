@@ -76,7 +76,7 @@ _AT_A_FORCE = re.compile(
     r"(?: (?:the|it|grip|grasp|gripping|closing|at|if|when|once|as|soon|force|reaches|exceeds|goes|over|above|beyond|past|anything|everything))* ?#"
 )
 _LEFT = re.compile(
-    r"(?:leav(?:e|ing)|(?:keep|stay|steer|back)(?: well| far)? (?:away|clear|off|back)(?: from| of)?|(?:keep )?(?:your )?hands off(?: of)?|"
+    r"(?:leav(?:e|ing)|(?:keep|stay|steer|back)(?: well| far)? (?:away|clear|off|back)(?: from| of)?|(?:keep )?(?:your )?hands off(?: of)?|keep (?:your|the|its|that) (?:gripper|fingers?|hands?|jaws?|claws?|paws|robot)(?: well| far)? (?:off|away|clear)(?: from| of)?|"
     r"(?:without|avoid|avoiding|no)(?: any| all)?(?: physical)? (?:touching|contact)(?: with| to)?|do not bother (?:with|about)) (?P<thing>(?:the|that|this|those|these|all|any|its|my|our|your|every|other|both)\b(?: (?!alone|be\b|and|but|or|pick|take|grab|hold)[\w'-]+){0,3})"
 )
 """What is to be left alone."""

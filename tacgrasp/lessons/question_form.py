@@ -33,6 +33,25 @@ _ASKS_OPENLY = re.compile(
 )
 """'How many' and 'where' want no yes or no, but where another clause begins with a verb."""
 
+_OPENS_LAST = re.compile(
+    r"[–—:;.,]\s+(?:(?:and|so|but|then) )*(?:(?:by|at|to|of|in|with|from|on) )*"
+    r"(?:what(?:['’]s)?(?! (?:if|about)\b)|how (?:many|much|far|deep|large|big|high|wide))\b"
+    r"[^?!;:.]*(?:\.\d[^?!;:.]*)*[?.! ]*$",
+    re.I,
+)
+_REQUESTS = re.compile(
+    r"(?:please )?(?:give|tell|state|report|quote|name|read out|show|convert|put|express|work out|"
+    r"calculate|compute|take|subtract|add up)(?: me| us)?(?: out)? (?:the|its|our|this|how|what|a|"
+    r"an)\b",
+    re.I,
+)
+_IF_SO = re.compile(
+    r"[(,;]? *(?:(?:with|use|put|add|and) )?(?:an? |the )?(?:negative|minus|positive|plus|zero|"
+    r"nought|nothing|nil|0)\b[^().;?]*\b(?:if|when|where|should)\b[^().;?]*\)?(?=[.?! ]*$)",
+    re.I,
+)
+"""'Negative if it is beyond', which asks for no yes or no."""
+
 _LAST_CLAUSE = re.compile(
     rf"[–—:;.,?!-]\s+(?:(?:and|so|but|then) )*(?P<clause>{AUXILIARY} (?:it|that|this|there|we|i|"
     rf"you|"
@@ -156,8 +175,11 @@ def is_unlikely(question: str, query: str) -> bool:
         if not (_NO_LIFT if _LIFT.search(last) else _OUTSIDE).search(last):
             return True
     is_choice = re.search(r"\bor\b", question, re.I) is not None
-    if _ASKS_OPENLY.match(question) and not is_choice and not _VERB_INSIDE.search(question):
-        return kinds == {"check"}
+    signless = _IF_SO.sub("", question)
+    asks_for_one = _ASKS_OPENLY.match(question) or _REQUESTS.match(question)
+    is_open = asks_for_one or _OPENS_LAST.search(signless)
+    if is_open and not is_choice and not _VERB_INSIDE.search(signless):
+        return "check" in kinds
     last = _LAST_CLAUSE.search(question)
     clause = last["clause"] if last else question
     if not _BEGINS_WITH_VERB.match(clause) or _INDIRECT.match(clause):
@@ -227,6 +249,40 @@ def alone_asked(question: str) -> str:
     if len(asking) != 1 or not beside or _BEARS_ON_IT.search(beside):
         return question
     return asking[0]
+
+
+_MEASURED = re.compile(
+    r"\d ?(?:m?n|newtons?|millinewtons?|[mcµu]m|mm²?|microns?|millimet\w+|k?g|grams?|%|percent|"
+    r"per cent)(?!\w)|\b(?:if|unless|suppos\w+|assum\w+|imagine|answer|reply|call|means?|counts?|"
+    r"instead|criterion|otherwise|say|not ask\w*|counting|positive|negative|minus|axis|"
+    r"origin)\b|\?",
+    re.I,
+)
+"""What a sentence has that the next one may build on."""
+
+_THAT_ONE = re.compile(
+    r"\b(?:that|this|said) (?=(?:patch|band|limit|contact|force|dent|imprint|area|touch|depth)\b)",
+    re.I,
+)
+_WHAT_I_WANT = re.compile(
+    r"^(?:(?:anyway|so|now|well|but)[, ]+)*(?:all|what) (?:i|we)(?:['’]d| would)? "
+    r"(?:like|want|need|am after|care about|ask for)(?: to (?:know|hear))? (?:now )?is (?=the\b)",
+    re.I,
+)
+"""'What I'd like is the depth.'"""
+
+
+def last_asked(question: str) -> str:
+    """The last sentence, where those before it have nothing that it builds on; '' of others.
+
+    'We had tea. The cat walked over the keyboard. What I'd like is the depth, in millimetres.'
+    """
+    sentences = [each.strip() for each in _SENTENCE.findall(question)]
+    *before, last = sentences or [""]
+    if not before or _MEASURED.search(" ".join(before)):
+        return ""
+    last = _WHAT_I_WANT.sub("what is ", last)
+    return _THAT_ONE.sub("the ", last) if begins_as_one(last) else ""
 
 
 _ASIDE = re.compile(r"\s*\((?!s\))[^()\d]*\)|,? if (?:any|at all)(?=[?.! ]*$)", re.I)

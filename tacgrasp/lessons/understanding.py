@@ -96,6 +96,7 @@ from tacgrasp.lessons.question_form import (
     in_usual_order,
     is_one_clause,
     is_unlikely,
+    last_asked,
     wanted_instead,
     with_number_before,
     without_aside,
@@ -283,6 +284,8 @@ def _by_other_words(question: str, before: str) -> ReadQuestion | None:
     told = (understood_by_grammar(each) for each in asked_in_speech(question))
     if told_alone := next((read for read in told if read is not None), None):
         return told_alone
+    if (last := last_asked(question)) and (asked_last := understood_by_grammar(last)):
+        return asked_last
     if choice := loosely_named(question):
         return ReadQuestion(query_of(choice), choice, CALCULATED_CONFIDENCE)
     if (meaning := unfelt(question) or of_outcome(question)) is None:

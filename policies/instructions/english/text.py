@@ -73,6 +73,10 @@ _CONTRACTIONS = (
 )  # fmt: skip
 
 _TYPED = (
+    (
+        r"[\[(] ?(\d[\d.]*) ?(?:m?n|(?:milli)?newtons?)? ?[,;] ?(\d[\d.]*) ?(m?n|(?:milli)?newtons?) ?[\])]",
+        r"\1 \3 to \2 \3",
+    ),
     (r"\bthere(?: i|['’])s no (?:earthly |good )?reason not to\b", "please"),
     (
         r"(?:\bnot|\bnever|n['’]t)\b[^.;,#\d]{0,40}?\b(?:any )?other (?:way|manner) than (?=\w+)",

@@ -40,7 +40,7 @@ _MOST = re.compile(
 _LEAST = re.compile(
     r"(?:\b(?:more|greater|higher|larger) than or equal to|\b(?:at|over|above) or (?:over|above|at)|"
     r"\bat (?:the )?(?:very |absolute )?least|\batleast|\bmin(?:\.|imum|imal(?:ly)?)?(?: (?!not\b|never\b)\w+){0,3}?(?: of| is| at|:| =|=)?|"
-    r"\b(?:lower|bottom) (?:\w+ )?(?:limit|bound|end)(?: \w+){0,2}?(?: of| is| at|:| =|=)?|\bfloor(?: \w+){0,3}?(?: of| is| at|:| =|=)?|"
+    r"\b(?:lower|bottom) (?:\w+ )?(?:limit|bound|end)(?: \w+){0,4}?(?: of| is| at|:| =|=)?|\bfloor(?: \w+){0,3}?(?: of| is| at|:| =|=)?|"
     r">=|≥|=>|\bno less than|\bno (?:weaker|less|softer|lower|gentler|looser|smaller)(?: an?)? (?:grip|squeeze|hold|force|clamp|pressure|grasp)(?: strength)? than|\bat (?:the )?(?:very )?least (?:with|at|use|apply)|\b(?:it|berry|fruit|this|that|one|strawberry|thing) (?:really |always )?(?:needs|requires|takes)|\bf[_ ]?min\s*[:=]?(?: is| of)?|\bstarting (?:at|from)|\bbottom out at|"
     r"\b(?:lower|low|bottom)[ -](?:alarm|trip|warning|threshold|cut-?off|guard)s?(?: (?:threshold|level|limit|point|value))?(?: of| is| at|:| =|=)?)"
     rf"{_ABOUT}?\s*$"
@@ -220,6 +220,20 @@ _HARMED = re.compile(
 _SLIPPING = re.compile(
     rf"(?:^|[,;:]|\b(?:it|berry|fruit|one|this|thing|they|and|or|but|these|berries)) ?{_SLIPS}(?: \w+){{0,3}} (?:under|below|at|with|with less than)\s*$"
 )
+_LOST_BELOW = re.compile(
+    r"\b(?:it|berry|fruit|one|this|that|thing|they|strawberry|egg|peg|you|we|i) (?:\w+ly |just |always |simply |will |would |can )*(?:slips?|falls?|drops?|slides?|escapes?|gets? away|comes? loose|loses? (?:it|them|hold|grip)|lose (?:it|them)|drop (?:it|them))\b"
+    r"(?: (?!not\b|never\b|no\b|and\b|but\b|so\b|unless\b)[\w']+){0,3}? (?:if|when|whenever|where|from|out of|at|in|under|by|with)(?: (?!not\b|never\b|unless\b)[\w']+){0,5}? ?(?:(?:less|lower|weaker|softer|looser|smaller|gentler) than|under|below|beneath)\s*$"
+)
+"""'It drops if you hold it with less than'."""
+_NOBODY_HOLDS = re.compile(
+    r",? ?(?:(?:nobody|no one|none|no gripper|no robot)(?: (?:has|have|had|could|can|will|would|was|is))?(?: ever| yet)*|(?:i|we|you|they|it|the (?:gripper|robot))(?: (?:have|has|had|could|can|will|would|were|was|am|are|is|did|do|does))? (?:never|not))"
+    r"(?: (?:ever|been|be|manage[sd]?|able|succeed(?:s|ed)?|to|in|quite|really|yet))* (?:hold|holds|held|holding|lift|lifts|lifted|lifting|keep|keeps|kept|keeping|carry|carried|grip|gripped)\b"
+)
+"""'Below 1.1 N nobody has ever managed to hold it.'"""
+_BUT_NEVER = re.compile(
+    r"(?: (?:if (?:you|it|need)[^.;,#]{0,20}|freely|without worry|all you (?:like|want)))?[,;]? (?:but|and|yet|though) (?:(?:please|do|you) )*(?:never|not)(?: (?:with|go|use|any(?:thing)?|be|apply))* (?P<side>less|below|under|lower|more|above|over|higher|beyond)\b(?! than #?\d| #?\d)"
+)
+"""'You can squeeze with more than 0.9 N, but never with less.'"""
 _TOO_MUCH = re.compile(
     rf"[^.;#(]{{0,30}}\b(?:(?<!not )(?<!never )too (?:much|far|hard)|out of|no go|not ok\w*|pointless|useless|no (?:use|sense|point|need|good)|wast\w+|{_UNWANTED}|(?:you|we|it) (?:must|may|should|shall|can|are to) not|(?:not|never) (?:be )?(?:needed|necessary|required|called for|wise|good|wanted|used)|jam\b|juice\b|{_HARMS})"
 )
@@ -266,6 +280,10 @@ def relation(left: str, right: str) -> tuple[Kind, int, int]:
         return ("most" if is_most else "least"), len(left), 0
     if _EITHER_WAY.search(left):
         return "value", len(left), 0
+    if match := _BUT_NEVER.match(right):
+        is_least = match["side"] in ("less", "below", "under", "lower")
+        if (_ABOVE if is_least else _BELOW).search(left):
+            return ("least" if is_least else "most"), len(left), match.end()
     if _STOPS_AT.search(left) and _HELD_THERE.match(right):
         return "value", len(left), 0
     if exact := _EXACT_AFTER.match(right):
@@ -310,6 +328,9 @@ def relation(left: str, right: str) -> tuple[Kind, int, int]:
                 pattern is _ABOVE and bool(_WHEN_ABOVE.search(said[clause_start : match.start()]))
             )
             is_denied = is_denied or bool(harm.match(right)) or bool(stated.search(left))
+            if pattern is _BELOW:
+                is_lost = _LOST_BELOW.search(left) or _NOBODY_HOLDS.match(right)
+                is_denied = is_denied or bool(is_lost)
             start = beside[0].start() if beside else match.start()
             return (denied if is_denied else plainly), start, 0  # type: ignore[return-value]
     if match := _HARMED.search(left):

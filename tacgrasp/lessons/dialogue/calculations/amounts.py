@@ -158,8 +158,9 @@ def amount_of(term: Term, asked: AskedWords) -> Calculated | None:
         if _HELD_BY.search(asked.words):
             return Calculated(truth=f"{term.factor} / gram_n", unit=unit)
         return Calculated(truth=f"{term.factor} / {GRAVITY_N_PER_G:g}", unit=unit)
-    if UNITS[unit].dimension == "area" and "area_percent" in expression and not term.is_sum:
-        return Calculated(truth=in_mm2(term).expression, unit=unit)
+    if UNITS[unit].dimension == "area" and "area_percent" in expression:
+        in_area = in_mm2(replace(term, expression=expression))
+        return Calculated(truth=in_area.expression, unit=unit)
     if UNITS[unit].dimension != term.dimension:
         return None
     return Calculated(truth=expression, unit=unit)

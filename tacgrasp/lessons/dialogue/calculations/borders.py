@@ -4,6 +4,7 @@
     Do less than 3 mm remain to the right-hand border?  pad_width_mm / 2 - x_mm < 3
     Is it 3 mm clear of every border?                   min(...) >= 3
     How far is it to the nearest border?                min(pad_width_mm / 2 - abs(x_mm), ...)
+    How far is it to the farthest border?               max(pad_width_mm / 2 + abs(x_mm), ...)
     With the origin in the lower left corner, what is x?
     Which border is nearest?                            'left' if ... else 'right' ...
     Which corner is nearest?                            'top-left' if ... else ...
@@ -60,6 +61,12 @@ _ANY_BORDER = re.compile(
     rf"(?:take |pick |choose )?(?:the|whichever|which)(?: one)?(?: is)? {_NEAR}(?: one)?|"
     rf"{_OWN}(?P<one>corner|border|edge|rim)(?: that| which)? is (?:the )?{_NEAR}(?: to it)?)\b"
 )
+_NEARER_OF = re.compile(
+    rf"(?:the )?(?:nearer|closer|{_NEAR})(?: one)? of (?:the )?(?:#\d+ )?(?:(?P<level>left (?:and|"
+    rf"or) (?:the )?right|right (?:and|or) (?:the )?left)|(?:top|upper) (?:and|or) (?:the )?"
+    rf"(?:bottom|lower)|(?:bottom|lower) (?:and|or) (?:the )?(?:top|upper)) {_RIM}{_OF_PAD}"
+)
+_FARTHEST = re.compile(rf"(?:{_OWN})(?:farthest|furthest|remotest|most distant) {_RIM}{_OF_PAD}")
 _LONG = rf"#\d+ (?:{UNIT})"
 _BY = r"(?:by|x|times)"
 _PAD_SIZE = re.compile(
@@ -300,6 +307,10 @@ def _distance(words: str) -> tuple[str, str]:
         x = _SIDES["left" if found["left"] else "right"][1]
         y = _SIDES["top" if found["top"] else "bottom"][1]
         expression = f"hypot({x}, {y})"
+    elif found := _NEARER_OF.search(words):
+        expression = _TO_UPRIGHT if found["level"] else _TO_LEVEL
+    elif found := _FARTHEST.search(words):
+        expression = f"max({_X} + abs(x_mm), {_Y} + abs(y_mm))"
     elif found := _ANY_BORDER.search(words):
         is_corner = (found["what"] or found["four"] or found["one"]) == "corner"
         expression = f"{'hypot' if is_corner else 'min'}({_TO_UPRIGHT}, {_TO_LEVEL})"

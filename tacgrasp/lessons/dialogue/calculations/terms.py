@@ -364,8 +364,11 @@ def in_mm2(term: Term) -> Term:
     """An area as it is, and a part of the pad as its area."""
     if term.dimension != "fraction":
         return term
-    expression = term.expression.replace("area_percent", "area_mm2")
-    return Term(expression=expression, dimension="area", words=term.words, is_sum=term.is_sum)
+    if re.fullmatch(r"(?:[\d.]+ \* )?area_percent", term.expression):
+        expression = term.expression.replace("area_percent", "area_mm2")
+    else:
+        expression = f"pad_width_mm * pad_height_mm * {term.factor} / 100"
+    return Term(expression=expression, dimension="area", words=term.words)
 
 
 def _beside(number: Term, other: Term) -> Term:

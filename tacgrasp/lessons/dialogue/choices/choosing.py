@@ -14,7 +14,7 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 
 from tacgrasp.lessons.dialogue.calculations.asked import AskedWords, asked_words
-from tacgrasp.lessons.dialogue.calculations.terms import Term
+from tacgrasp.lessons.dialogue.calculations.terms import Term, alike
 from tacgrasp.lessons.dialogue.choices import scales
 from tacgrasp.lessons.dialogue.choices.bins import binned
 from tacgrasp.lessons.dialogue.choices.conditions import (
@@ -61,7 +61,8 @@ _OF_FORCE = re.compile(r"\b(?:weak|strong|tight|loose|grip|force|hard)\b")
 Reader = Callable[[AskedWords, Offer, RestOfQuestion], str | None]
 
 _NO_CHOICE = re.compile(
-    r"\bwithin \S+ ?(?:%|percent|per cent)|\b(?:bigger|larger|greater|smaller|more|less) than .*"
+    r"\bwithin \S+ ?(?:%|percent|per cent)|\bwithin #\d+ \S+ of\b|"
+    r"\b(?:bigger|larger|greater|smaller|more|less) than .*"
     r"\b(?:up or down|left or right|sideways or)\b"
 )
 """'Within 10 % of the limit or past it', 'bigger than the offset up or down'."""
@@ -138,12 +139,33 @@ def _compared(asked: AskedWords, offer: Offer, rest: RestOfQuestion) -> str | No
     pair = compared_to(asked, offer, rest)
     if pair is None:
         return None
+    pair = _as_ordered(asked, pair)
     sign = ">=" if "least" in values else ">"
     more, less = (
         offer.said.get("least") or offer.said.get("more"),
         offer.said.get("most") or offer.said.get("less"),
     )
     return choice_of((more, f"{pair[0].expression} {sign} {pair[1].factor}"), (less, ""))
+
+
+_ORDERED = re.compile(
+    r"(?:is|are|was|were) (?P<a>.+?) (?:more|less|greater|smaller|larger|bigger|higher|lower|"
+    r"stronger|weaker|deeper|shallower|above|below|over|under) or (?:.+? )?"
+    r"(?:than|above|below|over|under) (?P<b>.+)"
+)
+
+
+def _as_ordered(asked: AskedWords, pair: tuple[Term, Term]) -> tuple[Term, Term]:
+    """What is compared with what, where the question names what is felt last.
+
+    'Is the limit more or less than the force?'
+    """
+    if (found := _ORDERED.fullmatch(asked.words)) is None:
+        return pair
+    first, last = asked.term(found["a"]), asked.term(found["b"])
+    if first is None or last is None or last.expression != pair[0].expression:
+        return pair
+    return alike(first, last) or pair
 
 
 def _step(asked: AskedWords, offer: Offer, rest: RestOfQuestion) -> str | None:

@@ -20,6 +20,7 @@ from cltp.texts.captions import with_article
 from tacgrasp.lessons.dialogue.plainer import AUXILIARY
 from tacgrasp.lessons.dialogue.rewordings.moved import with_parts_in_place
 from tacgrasp.lessons.dialogue.rewordings.phrases import with_plain_phrases
+from tacgrasp.lessons.dialogue.rewordings.recast import recast
 
 _UNFELT_SIGNS = (
     r"(?!.*\b(?:signs?|directions?|units?|numbers?|figures?|digits|decimals?|left|right|side\w*|"
@@ -304,6 +305,6 @@ def _to_do(text: str) -> str:
 
 _READERS: tuple[Callable[[str], str], ...] = (
     _affirmed, _neither, _without_aside, _told_apart, _which_one, _called, _graded, _forbidden,
-    _from_that, _than_that, _which_too, _to_do, with_parts_in_place,
+    _from_that, _than_that, _which_too, _to_do, recast, with_parts_in_place,
     with_plain_phrases, _wanted,
 )  # fmt: skip
