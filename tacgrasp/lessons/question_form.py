@@ -177,7 +177,8 @@ def is_unlikely(question: str, query: str) -> bool:
     is_choice = re.search(r"\bor\b", question, re.I) is not None
     signless = _IF_SO.sub("", question)
     asks_for_one = _ASKS_OPENLY.match(question) or _REQUESTS.match(question)
-    is_open = asks_for_one or _OPENS_LAST.search(signless)
+    asks_last = not _BEGINS_WITH_VERB.match(question) and _OPENS_LAST.search(signless)
+    is_open = asks_for_one or asks_last
     if is_open and not is_choice and not _VERB_INSIDE.search(signless):
         return "check" in kinds
     last = _LAST_CLAUSE.search(question)

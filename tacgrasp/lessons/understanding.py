@@ -64,6 +64,7 @@ from tacgrasp.lessons.dialogue.query import (
     query_of,
     read_query,
 )
+from tacgrasp.lessons.dialogue.rewordings.expressed import expressed
 from tacgrasp.lessons.dialogue.rewordings.reworded import reworded
 from tacgrasp.lessons.dialogue.rules.advised import advised, step_asked
 from tacgrasp.lessons.dialogue.rules.elsewhere import of_elsewhere, of_gripper, of_outcome
@@ -182,6 +183,8 @@ def understood_by_grammar(question: str, before: str = "") -> ReadQuestion | Non
     """
     if len(question) > LONGEST:
         return None
+    if written := expressed(question):
+        return ReadQuestion(query_of(written), written, CALCULATED_CONFIDENCE)
     question = compared_aright(with_plain_numbers(question))
     said = reworded(question)
     if said and (read_so := understood_by_grammar(said, before)):

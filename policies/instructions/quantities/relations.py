@@ -226,10 +226,15 @@ _LOST_BELOW = re.compile(
 )
 """'It drops if you hold it with less than'."""
 _NOBODY_HOLDS = re.compile(
-    r",? ?(?:(?:nobody|no one|none|no gripper|no robot)(?: (?:has|have|had|could|can|will|would|was|is))?(?: ever| yet)*|(?:i|we|you|they|it|the (?:gripper|robot))(?: (?:have|has|had|could|can|will|would|were|was|am|are|is|did|do|does))? (?:never|not))"
-    r"(?: (?:ever|been|be|manage[sd]?|able|succeed(?:s|ed)?|to|in|quite|really|yet))* (?:hold|holds|held|holding|lift|lifts|lifted|lifting|keep|keeps|kept|keeping|carry|carried|grip|gripped)\b"
+    r",? ?(?:(?:(?:the |my |our |your |these |its )?(?:fingers?|gripper|robot|hand|jaws|i|we|you|they|it) (?:always |usually |just |simply |will |would |can |often )*(?:loses?|drops?|lets? go of|can ?not hold|fails? to hold) (?:it|them|this|(?:the|this|that) (?:straw ?)?(?:berry|fruit|one)))|(?:(?:nobody|no one|none|no gripper|no robot)(?: (?:has|have|had|could|can|will|would|was|is))?(?: ever| yet)*|(?:i|we|you|they|it|the (?:gripper|robot))(?: (?:have|has|had|could|can|will|would|were|was|am|are|is|did|do|does))? (?:never|not))"
+    r"(?: (?:ever|been|be|manage[sd]?|able|succeed(?:s|ed)?|to|in|quite|really|yet))* (?:hold|holds|held|holding|lift|lifts|lifted|lifting|keep|keeps|kept|keeping|carry|carried|grip|gripped)\b)"
 )
 """'Below 1.1 N nobody has ever managed to hold it.'"""
+_ONLY_ABOVE = re.compile(
+    r"\b(?:only|just) (?:comes?|lifts?|holds?|stays?|moves?|sticks?|keeps?|works?|gets?|can be (?:held|lifted|picked))\b[^.;,#]{0,30} (?:if|when|once|where|with|at)\b[^.;,#]{0,30}\b(?:more|harder|higher|firmer) than\s*$|"
+    r"\b(?:only|just) (?:comes?|lifts?|holds?|stays?|moves?|sticks?|keeps?|works?|gets?)\b[^.;,#]{0,30} (?:above|over|beyond)\s*$"
+)
+"""'It only comes off the tray if you grip it with more than'."""
 _BUT_NEVER = re.compile(
     r"(?: (?:if (?:you|it|need)[^.;,#]{0,20}|freely|without worry|all you (?:like|want)))?[,;]? (?:but|and|yet|though) (?:(?:please|do|you) )*(?:never|not)(?: (?:with|go|use|any(?:thing)?|be|apply))* (?P<side>less|below|under|lower|more|above|over|higher|beyond)\b(?! than #?\d| #?\d)"
 )
@@ -284,6 +289,8 @@ def relation(left: str, right: str) -> tuple[Kind, int, int]:
         is_least = match["side"] in ("less", "below", "under", "lower")
         if (_ABOVE if is_least else _BELOW).search(left):
             return ("least" if is_least else "most"), len(left), match.end()
+    if match := _ONLY_ABOVE.search(left):
+        return "least", match.start(), 0
     if _STOPS_AT.search(left) and _HELD_THERE.match(right):
         return "value", len(left), 0
     if exact := _EXACT_AFTER.match(right):

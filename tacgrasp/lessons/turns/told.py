@@ -91,7 +91,8 @@ _CORRECTED = re.compile(
 )
 _WHAT_IF = re.compile(r"(?:(?:and|but|so)[, ]+)*(?:what )?(?:if|suppose|assuming) ", re.I)
 _BESIDE_IT = re.compile(
-    r"\b(in|inside|within|over|above|under|below) (?:it|that|this)"
+    r"\b(in|inside|within|over|above|under|below|(?:harder|more|firmer|tighter|higher|stronger|less|"
+    r"softer|weaker|lower) than) (?:it|that|this)"
     r"(?: (?:force|value|number|figure|mark))?(?=[?.! ]*$)",
     re.I,
 )

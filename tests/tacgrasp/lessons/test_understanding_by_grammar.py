@@ -861,3 +861,153 @@ def test_parts_of_a_question_may_stand_elsewhere(question: str, query: str) -> N
     read = understood_by_grammar(question)
     assert read is not None
     assert read.query == query
+
+
+@pytest.mark.parametrize(
+    ("question", "query"),
+    [
+        (
+            "Criterion 2: at least 25 % of the pad shall be covered. Criterion met?",
+            "check area >= #1 %.",
+        ),
+        (
+            "Of the left and right borders, take the one nearer to the contact centre: "
+            "what's the distance, in mm?",
+            "calculate pad_width_mm / 2 - abs(x_mm) in mm.",
+        ),
+        (
+            "Out of all four borders pick the one farthest from the contact's centre; "
+            "how far off is it, in mm?",
+            "calculate max(pad_width_mm / 2 + abs(x_mm), pad_height_mm / 2 + abs(y_mm)) in mm.",
+        ),
+        (
+            "If I started at the fingertip-side edge and walked straight up to the "
+            "contact centre, how many mm would I cover?",
+            "calculate pad_height_mm / 2 + y_mm in mm.",
+        ),
+        (
+            "There's a mark at x = 3 mm, y = -2 mm. How many mm away from it is the "
+            "middle of the contact?",
+            "calculate hypot(x_mm - 3, y_mm - -2) in mm.",
+        ),
+        (
+            "Add up the horizontal and the vertical displacement from the middle, both "
+            "without sign: total in mm?",
+            "calculate abs(x_mm) + abs(y_mm) in mm.",
+        ),
+        ("How many mm² of the surface feel nothing at all?", "amount free_area mm²."),
+        (
+            "As a number from 0 to 1, which fraction of the pad is being touched?",
+            "calculate area_percent / 100 in 1.",
+        ),
+        (
+            "To press this hard by weight alone, how many grams would have to rest on "
+            "the pad? Take g = 9.81.",
+            "amount force g.",
+        ),
+        (
+            "After adding half a newton to the grip, how many N of margin to the limit "
+            "would remain?",
+            "calculate limit_n - (force_n + 0.5) in N.",
+        ),
+        (
+            "How much could the grip tighten before leaving the band at its upper end, "
+            "in N (negative if already outside above)?",
+            "calculate band_high_n - force_n in N.",
+        ),
+        (
+            "Is the left border farther from the contact centre than 9000 µm?",
+            "calculate pad_width_mm / 2 + x_mm > 9.",
+        ),
+        (
+            "Contact centre farther from the left edge of the pad than from the right one?",
+            "check right.",
+        ),
+        ("Is the touch neither right of x = 5 mm nor left of x = -5 mm?", "check x #1 - #2 mm."),
+        (
+            "Light, medium or deep imprint, if light ends at 0.3 mm and deep begins at 0.8 mm?",
+            "calculate 'light' if depth_mm < 0.3 else 'deep' if depth_mm > 0.8 else 'medium'.",
+        ),
+        (
+            "Force is weak or strong, if boundary is 2.5 N?",
+            "calculate 'strong' if force_n > 2.5 else 'weak'.",
+        ),
+        (
+            "Keep it unless the surface is rough, in which case reject it. Keep or reject?",
+            "calculate 'reject' if texture == 'rough' else 'Keep'.",
+        ),
+        ("Can this grip be trusted with 200 g?", "calculate force_n >= gram_n * 200."),
+        (
+            "Half a kilogram is beyond what we're sure to hold at the moment, isn't it?",
+            "calculate holds_g < 500.",
+        ),
+        (
+            "The crown mustn't sink in more than 1.5 mm. How many mm are left until then?",
+            "calculate 1.5 - depth_mm in mm.",
+        ),
+        (
+            "Three pads each feel this same force: how many newtons do they carry together?",
+            "amount thrice force N.",
+        ),
+        (
+            "Were the pad a three-by-three grid, the cell with the contact in it would "
+            "go by what name?",
+            "choice position.",
+        ),
+        (
+            "We had tea, and then the cat walked over the keyboard. What I'd like is "
+            "the depth, in millimetres.",
+            "amount depth mm.",
+        ),
+        (
+            "Is the limit more or less than the force?",
+            "calculate 'more' if limit_n > force_n else 'less'.",
+        ),
+        ("Are 3 N more or less than the force?", "calculate 'more' if 3 > force_n else 'less'."),
+        (
+            "Does the untouched part come to more than 260 mm²?",
+            "calculate pad_width_mm * pad_height_mm * (100 - area_percent) / 100 > 260.",
+        ),
+        (
+            "Convert the mass you were given into a weight in newtons for me.",
+            "calculate 0.00980665 * mass_g in N.",
+        ),
+        (
+            "Which way is it off: is the bigger of the two offsets the horizontal or "
+            "the vertical one?",
+            "calculate 'horizontal' if abs(x_mm) > abs(y_mm) else 'vertical'.",
+        ),
+        (
+            "Is the bigger of the two offsets, ignoring sign, the horizontal or the vertical one?",
+            "calculate 'horizontal' if abs(x_mm) > abs(y_mm) else 'vertical'.",
+        ),
+        (
+            "Is it the case that the force presently exerted is neither less than the "
+            "lower bound nor greater than the upper bound of the agreed band?",
+            "check force within.",
+        ),
+    ],
+)
+def test_whole_questions_are_read_in_the_clause_that_others_ask_them_in(
+    question: str, query: str
+) -> None:
+    asked = understood_by_grammar(question)
+    assert asked is not None
+    assert asked.query == query
+
+
+@pytest.mark.parametrize(
+    ("question", "query"),
+    [
+        ("What share of the pad is covered?", "amount area %."),
+        ("Which part of the pad is being touched?", "choice position."),
+        ("We have tea. The limit is 3 N. Is it deep?", None),
+        ("Are you within 250 mN of the hard limit, or over it already?", None),
+        ("Does the contact lie in the top-left cell of the three-by-three grid?", None),
+    ],
+)
+def test_what_only_looks_like_such_a_question_is_not_taken_for_one(
+    question: str, query: str | None
+) -> None:
+    asked = understood_by_grammar(question)
+    assert (None if asked is None else asked.query) == query

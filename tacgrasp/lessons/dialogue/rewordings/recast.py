@@ -39,6 +39,13 @@ _LITTLE = r"weak|light|low|small|shallow|soft|slight|narrow|loose|gentle|tiny|fa
 _MUCH = r"strong|heavy|high|large|big|deep|hard|firm|great|wide|tight|massive"
 _BOUNDARY = r"(?:the |our |my )?(?:boundary|border|threshold|line|limit|cut-?off|dividing line)"
 
+_AMOUNT = (
+    r"\d[\d.,]* ?(?:m?N|mm²?|[µu]m|cm|%|(?:milli)?newtons?|millimet(?:re|er)s?|microns?|per ?cent)"
+)
+_JUDGED = (
+    r"(?:the )?(?:(?:contact|grip|gripping|press) )?(?:force|depth|area|coverage|grip|squeeze)"
+)
+
 _Plain = str | Callable[[re.Match[str]], str]
 
 
@@ -120,10 +127,11 @@ _RECAST: tuple[tuple[str, _Plain], ...] = (
     (r"^(?:criterion|requirement|rule|item|point|spec(?:ification)?|condition|feature|field|column)(?: (?:no\.? ?)?\d+)?(?: is|:) *(?=\S)", ""),
     (r"^(?P<s>(?:at least|at most|no more than|no less than|more than|less than|between) [^.?]*?) (?:shall|must|should|has to|have to|needs? to) be (?P<v>\w+)[.;:] *(?:(?:criterion|requirement|condition|is that|is it|is this)? ?(?:met|fulfilled|satisfied|ok|the case|so))[?.! ]*$",
      r"is \g<s> \g<v>"),
-    (r"^(?P<s>(?:the )?(?:contact|force|depth|area|touch|grip|it)) (?:shall|must|should|has to|needs? to) (?:be|stay|be kept|lie|remain) (?P<c>[^.?]*?)(?:, judging by its (?:cent(?:re|er)|middle))?[.;:] *(?:is (?:it|that|this)(?: so)?|met|ok)[?.! ]*$",
+    (r"^(?P<s>(?:the )?(?:(?:lateral|sideways|vertical|contact|gripping) )?(?:contact|force|depth|area|touch|grip|offset|coverage|it)(?: along [xy])?) (?:shall|must|should|has to|needs? to) (?:be kept|be|stay|lie|remain) (?P<c>[^.?]*?)(?:, judging by its (?:cent(?:re|er)|middle))?[.;:] *(?:(?:criterion|requirement|condition) met|is (?:it|that|this)(?: so)?|met|ok)[?.! ]*$",
      r"is \g<s> \g<c>"),
     # The band and the limit.
-    (rf"(?P<head>\b(?:is|are|it true that) {_FORCE}(?: \w+ly exerted)?(?: is)?|\b{_FORCE} is) neither (?:less|lower|weaker|smaller|below|under)(?: than)? (?:the |its )?{_LOWER}(?: of {_BAND})? nor (?:greater|higher|stronger|larger|more|above|over|beyond)(?: than)? (?:the |its )?{_UPPER}(?: of {_BAND})?",
+    (r"\bthe force (?:presently|currently|now|actually) (?:exerted|applied|felt|measured)\b", "the force"),
+    (rf"(?P<head>\b(?:is|are|it true that) {_FORCE}(?: is)?|\b{_FORCE} is) neither (?:less|lower|weaker|smaller|below|under)(?: than)? (?:the |its )?{_LOWER}(?: of {_BAND})? nor (?:greater|higher|stronger|larger|more|above|over|beyond)(?: than)? (?:the |its )?{_UPPER}(?: of {_BAND})?",
      r"\g<head> inside the band"),
     (r"\b(?:the )?contract['’]s (?=(?:force )?(?:band|limit)\b)", "the "),
     (rf"\b(?:the )?(?P<end>upper|lower) (?:value|figure|boundary|border|number) of (?:the )?{_BAND}", r"the \g<end> end of the band"),
@@ -190,7 +198,7 @@ _RECAST: tuple[tuple[str, _Plain], ...] = (
     (r"^(?P<a>top|upper|left|right|bottom|lower) (?:edge|border)(?: versus| vs\.?| or| against) (?:the )?(?P<b>top|upper|left|right|bottom|lower) (?:edge|border)[:;,]? *which (?:of (?:them|the two|these))?,?[^?]*\b(?P<how>farther|further|farthest|nearer|closer|nearest)\b[^?]*" + _END,
      r"is it \g<how> from the \g<a> or the \g<b> edge"),
     # The contact area.
-    (r"\b(?:the )?(?:portion|part|share|area|section) of the (?P<p>pad|gel|sensor) (?:that|which) (?:is|lies|stays) (?:not (?:in contact|touched|covered)|out of contact|untouched)(?: with (?:the object|it|anything))?", r"the free area of the \g<p>"),
+    (r"\b(?:(?:the|that) )?(?:portion|part|share|area|section) of the (?P<p>pad|gel|sensor) (?:that|which) (?:is|lies|stays) (?:not (?:in contact|touched|covered)|out of contact|untouched)(?: with (?:the object|it|anything))?", r"the free area of the \g<p>"),
     (r"^how (?P<n>many \S+|much) of the (?:surface|pad|gel) (?:feels?|senses?|gets?|has) (?:nothing|no (?:touch|contact|load))(?: at all)?" + _END, r"how \g<n> of the pad is free"),
     (r"^(?:the )?(?:footprint|contact area|coverage|contact|patch) is how many percentage points (?P<how>short of|below|under|above|over) (?P<n>(?:half|a third|a quarter|[\d.]+ ?%)(?: (?:of )?the (?:pad|gel))?)(?: \(negative if[^)]*\))?" + _END,
      r"by how many percentage points is the area \g<how> \g<n>, negative if not"),
@@ -220,6 +228,9 @@ _RECAST: tuple[tuple[str, _Plain], ...] = (
     (r"\bhow many times (?:its own|the object['’]s(?: own)?|that) weight (?:are (?:we|you) (?:gripping|squeezing)(?: with)?|is (?:the thing being squeezed with|(?:the|our) grip force))(?:, [^?]*)?" + _END, "how many times the weight of the object is the force"),
     (r"^(?:with g (?:at|of|=) ?[\d.]+, )?(?:gravity (?:pulls|tugs) (?:on|at) the (?:held )?(?:object|thing) with (?:what force in newtons|a certain number of newtons)|convert the mass you were given into a weight in newtons|(?:and )?its weight, so the pull of gravity on it, in newtons)[^?]*" + _END,
      "what is the weight of the object in newtons"),
+    (r"^not (?:the )?\w+(?:,| and| or) not (?:the )?\w+,? (?:but )?(?:only|just) (?P<q>the \w+)[:,;]? (?P<r>how many \w+|in \w+)" + _END, lambda m: f"what is {m['q']} in {m['r'].removeprefix('how many ').removeprefix('in ')}"),
+    (rf"^(?:we|i) (?:need|want|asked for|require) (?P<n>{_FORCE_NUMBER}) of (?:grip|force|squeeze)[.;,] *by how many newtons (?:are we|is it) (?P<how>short of|over|above|below|under) it,? (?:counting )?(?:zero|0) if[^?]*" + _END,
+     lambda m: f"by how many newtons is the force {'below' if m['how'].lower() in ('short of', 'below', 'under') else 'above'} {m['n']}, zero if it isn't"),
     # What is left of a depth.
     (rf"^(?:the \w+|it) (?:must(?:n['’]t| not)|may(?: not)?|can|should not|shouldn['’]t) (?:sink|go|be pushed|be pressed) in (?:more than |by )?(?P<n>{_LENGTH})[.;] *how (?:many mm|much(?: of this travel)?)(?: (?:are|is|do|have))*(?: we)?(?: still)?(?: (?:left|got|have))*[^?]*" + _END,
      r"what is \g<n> minus the depth"),
@@ -253,6 +264,44 @@ _RECAST: tuple[tuple[str, _Plain], ...] = (
     (r"\bhow many kilograms['’]? worth of (?:push|force|grip|squeeze)(?: is (?:that|it|this))?" + _END, "what is the force in kgf"),
     (r"\b(?:into|in) pounds-force\b(?P<p> (?:for me|please))?" , r"in pounds-force"),
     (r"^(?:put|convert|turn|translate|bring) the (?:\w+ )*?(?P<s>force|grip|squeeze|depth|area) (?:in|into) (?P<u>[\w²-]+)(?: for (?:me|us)| please)*" + _END, r"what is the \g<s> in \g<u>"),
+    # More or less than a number, and what to do about it.
+    (rf"^is (?:my|the|our|your|this) (?:grip|force|squeeze|press) (?P<a>gentler|softer|weaker|lighter|looser|lower|less) or (?P<b>firmer|stronger|harder|tighter|higher|more) than (?P<n>{_FORCE_NUMBER})" + _END,
+     r"say '\g<a>' if the force is below \g<n>, otherwise '\g<b>'"),
+    (rf"^is (?:my|the|our|your|this) (?:grip|force|squeeze|press) (?P<b>firmer|stronger|harder|tighter|higher|more) or (?P<a>gentler|softer|weaker|lighter|looser|lower|less) than (?P<n>{_FORCE_NUMBER})" + _END,
+     r"say '\g<b>' if the force is above \g<n>, otherwise '\g<a>'"),
+    (rf"^(?P<a>pass|ok|okay|good|accept|go) or (?P<b>fail|ng|bad|reject|not ok|no[- ]go)[:,;.–—-]+ *(?P<s>{_JUDGED}) (?:must|may|shall|should|can)(?:n['’]t| ?not|not) (?:exceed|be (?:more|higher|greater|deeper|larger) than|be (?:above|over)|go (?:above|over|beyond)|pass) (?P<n>{_AMOUNT})" + _END,
+     r"say '\g<a>' if \g<s> is at most \g<n>, otherwise '\g<b>'"),
+    (rf"^(?P<a>pass|ok|okay|good|accept|go) or (?P<b>fail|ng|bad|reject|not ok|no[- ]go)[:,;.–—-]+ *(?P<s>{_JUDGED}) (?:must|shall|should|has to|needs to) (?:be|stay|remain|lie) (?P<c>[^.?]*\d[^?]*?)" + _END,
+     r"say '\g<a>' if \g<s> is \g<c>, otherwise '\g<b>'"),
+    (r"^(?:(?:the )?spec(?:ification)?(?: says| wants| asks)?|(?:the )?(?:rule|requirement)(?: is| says)?)[:,]? (?:that )?the contact must cover (?P<n>[\d.]+ ?(?:%|per ?cent))(?: of the (?:pad|gel|sensor))? or more[.;,:–—-]+ *(?P<a>\w+) or (?P<b>\w+)" + _END,
+     r"say '\g<a>' if the contact area is at least \g<n>, otherwise '\g<b>'"),
+    (rf"^(?:so )?(?:do|should|must|shall) (?:i|we|you) (?:have to |need to )?(?P<a>tighten|squeeze more|grip harder) or (?P<b>loosen|ease off|relax|grip softer) to (?:get|come|arrive) (?:to|at) (?P<n>{_FORCE_NUMBER})" + _END,
+     r"say '\g<a>' if the force is below \g<n>, otherwise '\g<b>'"),
+    (rf"^[^.?]*\b(?:told me|wants me|asked me|said|have|am told) to (?:keep|stay) (?:it |the force )?(?P<c>under|below|over|above) (?P<n>{_FORCE_NUMBER})[.;,] *(?:am i|are we|do (?:i|we)|are you) (?:obey(?:ing)?|comply(?:ing)?|doing|follow(?:ing)?|keep(?:ing)?)(?: that| it| to that| with that| so)?" + _END,
+     r"is the force \g<c> \g<n>"),
+    (rf"^[^.?]*\b(?:wants?|needs?|asked for|would like) (?P<n>{_FORCE_NUMBER})(?: on it| of grip)?[.;,] *how (?:many more newtons|much more) do (?:i|we|you) need(?: to get there)?" + _END,
+     r"what is \g<n> minus the force"),
+    (rf"^(?:i|we) (?:was|were|am|are) aiming for (?P<n>{_LENGTH})(?: of depth| deep)?[.;,] *how many (?P<unit>\w+) short (?:am i|are we)[^?]*" + _END, r"what is \g<n> minus the depth, in \g<unit>"),
+    (rf"^(?:suppose|if|say|imagine)(?: that)? (?:my|the|our|your)(?: own)? limit (?:were|was|is) (?P<n>{_FORCE_NUMBER})(?: instead)?[.;,] *would (?:the )?(?:current |present )?(?:grip|force|it) (?:violate|exceed|break|be over|be above|breach) (?:it|that)" + _END,
+     r"is the force over \g<n>"),
+    (rf"^(?:suppose|if|say|imagine)(?: that)? (?:my|the|our|your)(?: own)? limit (?:were|was|is) (?P<n>{_FORCE_NUMBER})(?: instead)?[.;,] *how (?:many newtons|much) would be left" + _END,
+     r"what is \g<n> minus the force"),
+    (r"^has (?P<s>the force|it|the grip) (?:still )?not (?:yet )?(?:got|come|risen|climbed|reached)(?: up)?(?: to)? (?P<n>(?:half|a third|a quarter|two thirds|three quarters|[\d.]+ ?(?:%|per ?cent))(?: of)? the limit)" + _END, r"is the force below \g<n>"),
+    (r"^which (?:one )?is the force (?P<h>closer|nearer) to,? (?:the )?(?P<a>limit|zero) or (?:the )?(?P<b>limit|zero)" + _END, "is the force closer to the limit or to zero"),
+    (r"\bif i let go of half (?:of )?the force\b", "if the force were halved"),
+    (r"^if the force were halved, would (?:i|it|we|the force) be (?P<w>below, within or above|above, within or below|below or above|in or outside|within or outside) the band" + _END, r"is half the force \g<w> the band"),
+    (r"^by (?:what|which) factor could (?:i|we|you) multiply the (?:current |present )?force before reaching the limit" + _END, "what is the limit divided by the force"),
+    (rf"^(?:how many per ?cent|what percentage) of the (?P<n>{_FORCE_NUMBER}) (?:cracking|breaking|bruising|crushing|bursting|maximum) force am i using" + _END, r"what percentage of \g<n> is the force"),
+    (r"^is (?:the thing(?: i hold)?|it|the contact|the object) (?P<h>nearer|closer) to (?:my|the|your) (?P<a>fingertip|palm) than (?:to )?(?:my|the|your) (?P<b>fingertip|palm)" + _END, r"is it \g<h> to the \g<a> than to the \g<b>"),
+    (rf"^(?P<head>(?:tell me |say )?(?:in one word )?)(?:whether |if |is )?(?P<s>{_JUDGED})(?: is)? (?P<a>\w+) or (?P<b>\w+), (?P<x>\w+) being (?:anything |everything |all )?(?P<c>(?:under|below|less than|over|above|more than)) (?P<n>{_AMOUNT})" + _END,
+     lambda m: f"say '{m['x']}' if {m['s']} is {m['c']} {m['n']}, otherwise '{m['b'] if m['x'].lower() == m['a'].lower() else m['a']}'"),
+    (rf"^by how (?:many \w+|much) does (?P<s>{_JUDGED}) differ from (?:an? |the |my |our )?(?:nominal |target |wanted |planned )?(?P<n>{_AMOUNT}),? (?:ignoring (?:the )?sign|either way|whichever way|in either direction)" + _END, r"how far is \g<s> from \g<n>"),
+    (rf"^(?:give|tell)(?: me)? the distance(?P<unit>,? in \w+)? (?:between|from) {_CONTACT} (?:and|to) (?:the )?point (?P<p>x = [^?]+?)" + _END, r"how far is the contact from the point \g<p>"),
+    (rf"^how many (?P<unit>\w+) (?P<w>below|above) the (?:middle|cent(?:re|er))(?: of the (?:pad|gel))? is {_CONTACT}[,?;.]? *\(?negative if (?:it is |it['’]s )?(?:above|below)[^?]*" + _END,
+     lambda m: f"what is {'minus ' if m['w'].lower() == 'below' else ''}y in {m['unit']}"),
+    (rf"^is (?:it|{_CONTACT}) near the (?P<side>\w+) (?:edge|border), (?:say|meaning|i\.?e\.?|that is),? within (?P<n>{_LENGTH})(?: of it)?(?:, measured from [^?]*)?" + _END, r"is the distance to the \g<side> edge at most \g<n>"),
+    (rf"^[^?]*\bnowhere near the (?P<side>\w+) (?:edge|border),? is it more than (?P<n>{_LENGTH}) (?:away )?from (?:it|that)(?: edge)?" + _END, r"is the distance to the \g<side> edge more than \g<n>"),
+    (r"^are we in the upper half of the band or beyond, (?:i\.?e\.?,? |that is,? )?(?:above its middle)" + _END, "is the force above the middle of the band"),
     # Words to choose from.
     (rf"^(?:the )?(?:force|depth|contact|grip|press|area|touch|it)? ?(?:is )?(?P<one>{_LITTLE}|{_MUCH})(?:,)? or (?P<two>{_LITTLE}|{_MUCH}),? (?:if|with|given|taking|where) {_BOUNDARY} (?:is|at|being|of|as)? ?(?P<n>\d[\d.,]* ?[a-zµ%²]+)" + _END,
      _said_by_size),
