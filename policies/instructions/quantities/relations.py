@@ -222,7 +222,7 @@ _SLIPPING = re.compile(
 )
 _LOST_BELOW = re.compile(
     r"\b(?:it|berry|fruit|one|this|that|thing|they|strawberry|egg|peg|you|we|i) (?:\w+ly |just |always |simply |will |would |can )*(?:slips?|falls?|drops?|slides?|escapes?|gets? away|comes? loose|loses? (?:it|them|hold|grip)|lose (?:it|them)|drop (?:it|them))\b"
-    r"(?: (?!not\b|never\b|no\b|and\b|but\b|so\b|unless\b)[\w']+){0,3}? (?:if|when|whenever|where|from|out of|at|in|under|by|with)(?: (?!not\b|never\b|unless\b)[\w']+){0,5}? ?(?:(?:less|lower|weaker|softer|looser|smaller|gentler) than|under|below|beneath)\s*$"
+    r"(?: (?!not\b|never\b|no\b|and\b|but\b|so\b|unless\b)[\w']+){0,3}? (?:if|when|whenever|where|from|out of|at|under|by|with)(?: (?!not\b|never\b|unless\b)[\w']+){0,5}? ?(?:(?:less|lower|weaker|softer|looser|smaller|gentler) than|under|below|beneath)\s*$"
 )
 """'It drops if you hold it with less than'."""
 _NOBODY_HOLDS = re.compile(
@@ -235,6 +235,33 @@ _ONLY_ABOVE = re.compile(
     r"\b(?:only|just) (?:comes?|lifts?|holds?|stays?|moves?|sticks?|keeps?|works?|gets?)\b[^.;,#]{0,30} (?:above|over|beyond)\s*$"
 )
 """'It only comes off the tray if you grip it with more than'."""
+_ORDERED = re.compile(
+    r"\b(?:(?:stay|remain)|(?:keep|hold|use|apply|grip|squeeze|grasp|take|press|pinch|clamp)(?: (?:it|this|that|(?:the|this|that|your|my) (?:\w+ )?\w+|everything|yourself))?)(?: (?:well|far|always|safely|at all times|gently|softly|please|only|just|a bit|at|with|to|anything))*"
+    r" (?P<bound>(?:(?:a |any )?(?:force|grip)s? )?(?:(?P<below>(?:less|lower|weaker|softer|looser|smaller) than|below|under|beneath)|(?:more|higher|stronger|harder|firmer|greater) than|above|over|beyond))\s*$"
+)
+"""An order to stay on one side of a force, whatever reason stands beside it."""
+_NOT_ORDERED = re.compile(
+    r"(?:\b(?:not|never|no|nobody|none|nothing|neither|nor|without|rather than|instead of|stop|avoid|if|when|whenever|unless|can|could|would|will|may|might|i|we|you|they|it|who|that|which|to)\b|n't\b)(?: (?!and\b|but\b|since\b|because\b|so\b|as\b|then\b)\w+){0,2}? ?$|"
+    r"\b(?:any|every|each|an?|the|no|all|some|your|my|its|this|that|firm|loose|tight|soft) $"
+)
+"""Before words that give no order: 'do not use less than', 'if you hold it below'."""
+_AND_SO = re.compile(
+    rf",? (?:and|or) (?:it|the \w+|you|they) (?:will |would |just |simply )*(?:{_SLIPS}|lose)\b(?!(?: \w+){{0,3}}? (?:if|when|unless|once)\b)"
+)
+"""'Hold it with less than 0.7 N and it drops.'"""
+_AND_HARM = re.compile(
+    rf"[,;:–—-]?\s*(?:(?:and|or|as|because|since|then) )?(?:it|this|that|the \w+|they|you|we) (?:will |would |can |could |might |may |just |surely |soon |already |starts? to |begins? to |are |is |get |gets )*(?:too much|{_HARMS})(?! (?:only|easily|never|if|when|once|unless)\b)|"
+    r"[,;:–—-]? (?:and|or) (?:(?:you|we|i) (?:are|will be) (?:out|fired|dead|in (?:big )?trouble|done|finished|sorry|history)|(?:you|we) (?:will )?(?:get|have|make) (?:jam|juice|mush|pulp|a mess)|it is (?:jam|juice|mush|pulp|over|ruined))\b"
+)
+"""'Squeeze with more than 1 N and it bruises.'"""
+_IMPOSSIBLE_BELOW = re.compile(
+    r"\b(?:impossible|not possible|hopeless|useless|no use|pointless|futile|no good)(?: for \w+)? (?:to|trying to) (?:hold|lift|keep|grip|carry|pick)\b[^.;,#]{0,30} (?:(?:less|lower|weaker|softer|looser) than|below|under)\s*$"
+)
+"""'It is impossible to hold it with less than'."""
+_STATED_BELOW = re.compile(
+    r"(?:^|[.;:,!–—-] ?|\b(?:that|because|since|as|and|but|so|for) )(?:(?:anywhere|somewhere|even|just|only|well|far|much|always|already|apparently|usually) ){0,2}(?:at |with )?(?:anything |any force |a force |forces |a grip )?(?:(?:less|lower|weaker|softer|looser) than|below|under|beneath)\s*$"
+)
+"""Begins a statement: no order stands before it, as in 'stay below'."""
 _BUT_NEVER = re.compile(
     r"(?: (?:if (?:you|it|need)[^.;,#]{0,20}|freely|without worry|all you (?:like|want)))?[,;]? (?:but|and|yet|though) (?:(?:please|do|you) )*(?:never|not)(?: (?:with|go|use|any(?:thing)?|be|apply))* (?P<side>less|below|under|lower|more|above|over|higher|beyond)\b(?! than #?\d| #?\d)"
 )
@@ -315,6 +342,11 @@ def relation(left: str, right: str) -> tuple[Kind, int, int]:
             match.start(),
             0,
         )
+    ordered = _ORDERED.search(left)
+    if ordered and not _NOT_ORDERED.search(left[: ordered.start()]):
+        is_most = ordered["below"] is not None
+        if not (_AND_SO if is_most else _AND_HARM).match(right):
+            return ("most" if is_most else "least"), ordered.start("bound"), 0
     for pattern, plainly, denied, harm, begins in (
         (_ABOVE, "least", "most", _TOO_MUCH, _BEGINS),
         (_BELOW, "most", "least", _TOO_LITTLE, _BEGINS_BELOW),
@@ -336,7 +368,11 @@ def relation(left: str, right: str) -> tuple[Kind, int, int]:
             )
             is_denied = is_denied or bool(harm.match(right)) or bool(stated.search(left))
             if pattern is _BELOW:
-                is_lost = _LOST_BELOW.search(left) or _NOBODY_HOLDS.match(right)
+                is_lost = (
+                    _LOST_BELOW.search(left)
+                    or _IMPOSSIBLE_BELOW.search(left)
+                    or (_STATED_BELOW.search(left) and _NOBODY_HOLDS.match(right))
+                )
                 is_denied = is_denied or bool(is_lost)
             start = beside[0].start() if beside else match.start()
             return (denied if is_denied else plainly), start, 0  # type: ignore[return-value]
