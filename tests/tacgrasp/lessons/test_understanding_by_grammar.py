@@ -986,6 +986,43 @@ def test_parts_of_a_question_may_stand_elsewhere(question: str, query: str) -> N
             "lower bound nor greater than the upper bound of the agreed band?",
             "check force within.",
         ),
+        (
+            "is my grip gentler or firmer than 3 N?",
+            "calculate 'gentler' if force_n < 3 else 'firmer'.",
+        ),
+        (
+            "Pass or fail: force must not exceed 7.5 N.",
+            "calculate 'Pass' if force_n <= 7.5 else 'fail'.",
+        ),
+        (
+            "Suppose my own limit were 10 N. Would the current grip violate it?",
+            "check force > #1 N.",
+        ),
+        (
+            "Has the force not yet got to half of the limit?",
+            "check used < #1 %.",
+        ),
+        (
+            "is the thing I hold nearer to my fingertip than to my palm?",
+            "check bottom.",
+        ),
+        (
+            "My target force is 4 N. How many newtons do I need to add, negative if I "
+            "should take some off?",
+            "calculate 4 - force_n in N.",
+        ),
+        (
+            "The gel tears if pushed in beyond 1.5 mm. Is it safe right now?",
+            "check depth <= #1 mm.",
+        ),
+        (
+            "Were the contact to shift 2 mm to the left, what would its x position be in mm?",
+            "calculate x_mm - 2 in mm.",
+        ),
+        (
+            "Centred or off-centre? I count anything within 3 mm of the middle as centred.",
+            "calculate 'Centred' if hypot(x_mm, y_mm) <= 3 else 'off-centre'.",
+        ),
     ],
 )
 def test_whole_questions_are_read_in_the_clause_that_others_ask_them_in(
