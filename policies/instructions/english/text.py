@@ -74,6 +74,10 @@ _CONTRACTIONS = (
 
 _TYPED = (
     (
+        r"\bkeep (?:the|your|its|our) (?:\w+ )?(?:force|grip|gripper|squeeze|pressure|load) (?:well |far )?clear of (?=\d)",
+        "keep clear of ",
+    ),
+    (
         r"[\[(] ?(\d[\d.]*) ?(?:m?n|(?:milli)?newtons?)? ?[,;] ?(\d[\d.]*) ?(m?n|(?:milli)?newtons?) ?[\])]",
         r"\1 \3 to \2 \3",
     ),
