@@ -10,7 +10,7 @@ from policies.instructions.english.denials import FORBIDDEN_AFTER, NO_CASE
 from policies.instructions.quantities.force import AS_BEFORE, MARK, WORKED_OUT, Force, Kind
 from policies.instructions.quantities.masses import OBJECT
 from policies.instructions.quantities.outcomes import EarlierGrip, is_again, outcome
-from policies.instructions.quantities.relations import NOT, relation
+from policies.instructions.quantities.relations import BROUGHT_BELOW, NOT, relation
 from policies.instructions.quantities.spans import force_spans
 
 _LEFT_OUT = r"(?:leav(?:e|ing) out|omit(?:ting)?|skip(?:ping)?|(?:move|get|back|steer) away from|resist(?:ing)? the (?:temptation|urge))"
@@ -124,7 +124,9 @@ def read_forces(text: str) -> ReadForces:
         is_worked_out = left.rstrip().endswith(WORKED_OUT)
         left = left.replace(WORKED_OUT, " ").rstrip() + " " if is_worked_out else left
         words = text[start:stop].strip()
-        said = outcome(f"{left.rstrip()} at" if _WITHIN.match(words) else left, right)
+        said = None
+        if not BROUGHT_BELOW.search(left):  # nothing slips in 'make sure it falls below 1 N'
+            said = outcome(f"{left.rstrip()} at" if _WITHIN.match(words) else left, right)
         if _MAKE_SURE.search(left):
             said = None  # it is to come, and no outcome
         if said is None and became and is_again(left, right):

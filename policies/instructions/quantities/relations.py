@@ -221,8 +221,8 @@ _SLIPPING = re.compile(
     rf"(?:^|[,;:]|\b(?:it|berry|fruit|one|this|thing|they|and|or|but|these|berries)) ?{_SLIPS}(?: \w+){{0,3}} (?:under|below|at|with|with less than)\s*$"
 )
 _LOST_BELOW = re.compile(
-    r"\b(?:it|berry|fruit|one|this|that|thing|they|strawberry|egg|peg|you|we|i) (?:\w+ly |just |always |simply |will |would |can )*(?:slips?|falls?|drops?|slides?|escapes?|gets? away|comes? loose|loses? (?:it|them|hold|grip)|lose (?:it|them)|drop (?:it|them))\b"
-    r"(?: (?!not\b|never\b|no\b|and\b|but\b|so\b|unless\b)[\w']+){0,3}? (?:if|when|whenever|where|from|out of|at|under|by|with)(?: (?!not\b|never\b|unless\b)[\w']+){0,5}? ?(?:(?:less|lower|weaker|softer|looser|smaller|gentler) than|under|below|beneath)\s*$"
+    r"\b(?:it|(?:straw ?)?berry|berries|fruits?|one|ones|this|that|these|those|thing|they|egg|peg|you|we|i)(?: like (?:this|that|these))? (?:\w+ly |just |always |simply |will |would |can )*(?:(?:slip|fall|drop|slide|escape)s?|(?:get|come|work|wriggle|break|pop)s? (?:away|loose|free|out|lost|off)|loses? (?:it|them|hold|grip)|drop (?:it|them))\b"
+    r"(?: (?!not\b|never\b|no\b|and\b|but\b|so\b|unless\b|until\b)[\w']+){0,4}?(?: (?:if|when|whenever|where|once|as soon as|the moment|from|out of|at|under|by|with)(?: (?!not\b|never\b|unless\b|until\b)[\w']+){0,5}?)? ?(?:(?:less|lower|weaker|softer|looser|smaller|gentler) than|under|below|beneath)\s*$"
 )
 """'It drops if you hold it with less than'."""
 _NOBODY_HOLDS = re.compile(
@@ -240,6 +240,10 @@ _ORDERED = re.compile(
     r" (?P<bound>(?:(?:a |any )?(?:force|grip)s? )?(?:(?P<below>(?:less|lower|weaker|softer|looser|smaller) than|below|under|beneath)|(?:more|higher|stronger|harder|firmer|greater) than|above|over|beyond))\s*$"
 )
 """An order to stay on one side of a force, whatever reason stands beside it."""
+BROUGHT_BELOW = re.compile(
+    r"\b(?:make (?:sure|certain)|ensure|see to it|(?:reduce|lower|ease|decrease|loosen|relax)\b[^.;,#]{0,30} (?:so|such|until|till)|(?:i|we) (?:want|need|would like))\b[^.;,#]{0,20}\b(?:it|this|that)(?: to| should| must)? (?:falls?|drops?|goes|go|comes|come|gets?|stays?|stay)(?: back| down| well)* (?P<bound>below|under|beneath)\s*$"
+)
+"""'Make sure it falls below': 'it' is the force."""
 _NOT_ORDERED = re.compile(
     r"(?:\b(?:not|never|no|nobody|none|nothing|neither|nor|without|rather than|instead of|stop|avoid|if|when|whenever|unless|can|could|would|will|may|might|i|we|you|they|it|who|that|which|to)\b|n't\b)(?: (?!and\b|but\b|since\b|because\b|so\b|as\b|then\b)\w+){0,2}? ?$|"
     r"\b(?:any|every|each|an?|the|no|all|some|your|my|its|this|that|firm|loose|tight|soft) $"
@@ -342,6 +346,8 @@ def relation(left: str, right: str) -> tuple[Kind, int, int]:
             match.start(),
             0,
         )
+    if (brought := BROUGHT_BELOW.search(left)) and not NOT.search(brought[0]):
+        return "most", brought.start("bound"), 0
     ordered = _ORDERED.search(left)
     if ordered and not _NOT_ORDERED.search(left[: ordered.start()]):
         is_most = ordered["below"] is not None
