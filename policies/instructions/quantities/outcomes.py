@@ -33,7 +33,7 @@ class EarlierGrip:
 _MAY = r"(?:will|would|might|may|can|could|shall|should|did|does|do|to|start(?:s|ed)? to|began to|begins to|tend(?:s|ed)? to)(?: \w+ly| just| still| only| always| simply| have)?"
 _LOOSE = r"(?:away|loose|free|out|off|down)"
 _SLIPPED = (
-    rf"(?:slip(?:s|ped|pe?d|page|ping)|(?<!on )(?<!for )(?<!the )(?<!of )(?<!glass )(?<!with )slid(?:e?d|den|es|ing)?|falls|fell|fallen|falling|dropped|drops|dropping|tumble[sd]|escape[sd]|wobble[sd]|roll(?:s|ed)|turn(?:s|ed)(?! (?:an?|the|it|this|that|my|your|into|to)\b)|twist(?:s|ed)|rotate[sd]|shift(?:s|ed)|moved|moves|"
+    rf"(?:slip(?:s|ped|pe?d|page|ping)|(?<!on )(?<!for )(?<!the )(?<!of )(?<!glass )(?<!with )slid(?:e?d|den|es|ing)?|falls|fell|fallen|falling|dropped|drops|dropping|tumble[sd]|escape[sd]|wobble[sd]|roll(?:s|ed)|turn(?:s|ed)(?! (?:an?|the|it|this|that|my|your|into|to|mush\w*|soft|brown|black|red|dark|bad|sour|watery|pulpy|squashy|slimy|wet|blue|purple)\b)|twist(?:s|ed)|rotate[sd]|shift(?:s|ed)|moved|moves|"
     rf"{_MAY} (?:be )?(?:slip(?:ped)?|slide|fall(?:en)?|drop(?:ped)?|escape|roll|turn|twist|shift|move|lose (?:it|grip|hold|contact))|"
     rf"(?:got|gets|getting|came|comes|coming|went|goes|broke|breaks|popped|pops|wriggle[sd]|worked|flew|shot|jumped) (?:right |straight |completely )?{_LOOSE}\b(?! (?:of|(?:\w+ly )?(?:clean|fine|ok(?:ay)?|well|good|great|best|perfect\w*|nice\w*|beautiful\w*|all ?right|intact|whole|unharmed|undamaged|unmarked|unscathed|unbruised|spotless|as|on top|without|with no))\b)|"
     r"(?:loses?|lost|losing)(?: (?:my|the|its|our|all|any))? (?:it|them|grip|hold|contact|purchase|traction|the \w+)|(?:was|were|is|got|gets|been) (?:\w+ )?lost|(?:grip|grasp|hold) (?:was |is |has |had )?(?:failed|fails|broke|gave way)|"

@@ -51,7 +51,7 @@ _OTHERS = r"(?!(?: it| them)?(?: than| of| is| to|:| =| at| with| from| above| o
 """Ends a bound after a number: '2 N, at most 2.2 N' bounds the second number, not the first."""
 
 _HARMS = r"(?:g[ia]ves? (?:way|in)|broke|tore|left (?:a |its )?(?:mark|dent|bruise)|fail|yield|suffer|complain|leak|collapse|spoil|bruis|crush|squash|burst|break|split|crack|damag|mark|dent|pop|hurt|mush|ruin|spoil|tear|pulp)\w*\b"
-_SLIPS = r"(?:slips?|falls?|(?:drop|slide)(?:s|(?! (?:it|this|that|them|the|my|our)\b))|turn(?:s|(?! (?:it|this|that|them|the|my|our)\b))|gets? away|wobbles?)"
+_SLIPS = r"(?:slips?|falls?|(?:drop|slide)(?:s|(?! (?:it|this|that|them|the|my|our)\b))|turn(?:s(?! (?:mush\w*|soft|brown|black|red|dark|bad|sour|watery|pulpy|squashy|slimy|wet|blue|purple)\b)|(?! (?:it|this|that|them|the|my|our|mush\w*|soft|brown|black|red|dark|bad|sour|watery|pulpy|squashy|slimy|wet|blue|purple)\b))|gets? away|wobbles?)"
 _BEEN = r"(?:is|was|are|were|(?:would|will|should)(?: already| surely| certainly| probably| simply| just)? be|would have been|has been|had been|seems?|seemed|felt|proved|turned out)(?: to be)?"
 _UNWANTED = (
     r"(?:forbidden|prohibited|banned|disallowed|unacceptable|excessive|overkill|unnecessary|needless|dangerous|harmful|risky|taboo|ruled out|out of (?:the question|bounds)|"
