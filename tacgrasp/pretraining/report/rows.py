@@ -167,6 +167,7 @@ ROWS: Mapping[str, RowRecipe] = {
         preset="grid_curves",
         recipe=CltpRecipe(clean=0.5),
         optimiser="muon",
+        seeds=(0, 1, 2),
     ),
     "cltp_muon_curves_full": RowRecipe(
         about="cltp-muon-curves, learned from the set full without the unseen objects",

@@ -77,7 +77,11 @@ def test_every_row_is_of_a_known_method_and_encoder_and_takes_a_part_of_one_budg
         steps = row.schedule(row.samples).steps
         assert steps == max(1, row.samples // 64), name
     assert {row.method for row in ROWS.values()} >= METHODS.keys()
-    assert [name for name, row in ROWS.items() if len(row.seeds) == 3] == ["cltp", "cltp_even"]
+    assert [name for name, row in ROWS.items() if len(row.seeds) == 3] == [
+        "cltp",
+        "cltp_even",
+        "cltp_muon_curves_clean",
+    ]
 
 
 def test_no_two_rows_have_one_name_in_tables() -> None:
