@@ -40,12 +40,19 @@ def _to_end(found: re.Match[str]) -> str:
     return f"how far towards the {end} is it, minus for the {other}{unit}"
 
 
-_OTHER_HALF = {"left": "right", "right": "left", "upper": "lower", "lower": "upper"}
+OTHER_HALF = {
+    "left": "right",
+    "right": "left",
+    "upper": "lower",
+    "lower": "upper",
+    "top": "bottom",
+    "bottom": "top",
+}
+"""The half of the pad opposite to each."""
 
 
 def _other_half(found: re.Match[str]) -> str:
-    half = found["half"].lower()
-    other = _OTHER_HALF.get(half, "bottom" if half == "top" else "top")
+    other = OTHER_HALF[found["half"].lower()]
     return f"lie in the {other} half"
 
 

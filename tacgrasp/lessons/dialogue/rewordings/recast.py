@@ -14,6 +14,8 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 
+from tacgrasp.lessons.dialogue.rewordings.moved import OTHER_HALF
+
 _END = r"(?=[?.! ]*$)"
 _CONTACT = (
     r"(?:(?:the |this )?(?:(?:cent(?:re|er)|middle) of (?:the |this )?)?"
@@ -109,13 +111,11 @@ def _along_or_across(found: re.Match[str]) -> str:
 
 def _opposite(found: re.Match[str]) -> str:
     """Farther from one border than from the opposite one: on the other side of the middle."""
-    opposite = {"left": "right", "right": "left", "top": "bottom", "bottom": "top",
-                "upper": "lower", "lower": "upper"}  # fmt: skip
     side, other = found["side"].lower(), found["other"].lower()
-    if other not in (opposite[side], "opposite", "other"):
+    if other not in (OTHER_HALF[side], "opposite", "other"):
         return found[0]
     is_far = re.match("f", found["how"], re.I) is not None
-    where = opposite[side] if is_far else side
+    where = OTHER_HALF[side] if is_far else side
     return f"is the contact in the {where} half"
 
 
@@ -189,8 +189,6 @@ _RECAST: tuple[tuple[str, _Plain], ...] = (
     (rf"^is the (?P<side>\w+) (?:edge|border) (?P<how>farther|further|closer|nearer|more|less)(?: away)?(?: from {_CONTACT}| to {_CONTACT})? than (?P<n>{_LENGTH})(?: (?:away )?(?:from|to) {_CONTACT})?" + _END,
      lambda m: f"is the distance to the {m['side']} edge {'more' if m['how'].lower()[0] in 'fm' else 'less'} than {_in_mm(m['n'])}"),
     (r"^(?:is )?(?:the )?(?P<how>bigger|larger|greater|smaller) of the two offsets,?(?: ignoring (?:the )?signs?,)? (?:is it )?(?:the )?(?P<a>horizontal|vertical)(?: one)? or (?:the )?(?P<b>horizontal|vertical)(?: one)?" + _END,
-     r"is the \g<a> or the \g<b> offset \g<how>"),
-    (r"^is the (?P<how>bigger|larger|greater|smaller) of the two offsets,?(?: ignoring (?:the )?signs?,)? (?:the )?(?P<a>horizontal|vertical)(?: one)? or (?:the )?(?P<b>horizontal|vertical)(?: one)?" + _END,
      r"is the \g<a> or the \g<b> offset \g<how>"),
     (r"^if (?:the contact|it) is(?:n['’]t| not) in the (?P<x>\w+) half,? (?:then )?it['’]?s in the \w+ half[.;,:] *which (?:one )?is it,? (?P<a>\w+) or (?P<b>\w+)" + _END,
      r"is it in the \g<a> or the \g<b> half"),
