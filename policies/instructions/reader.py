@@ -132,12 +132,12 @@ _NEXT = re.compile(
 _WANTED = re.compile(
     r"^(?:(?:please|robot|robo|hey|hi|hello|ok(?:ay)?|so|yo|now)[ ,]*)*"
     r"(?:(?:i (?:would|will) (?:like|love|take)(?: to (?:have|get))?|i (?:want|need)(?: to have)?|(?:can|could|may|might) (?:i|we) (?:please )?(?:have|get)|(?:give|hand|pass) (?:me|us)|let (?:me|us) have)"
-    r"(?: please)? (?:the|that|this|a|one|another|my|some)(?: \w+){0,2}? (?:straw ?berr(?:y|ies)|berr(?:y|ies)|fruit|one)\b|"
+    r"(?: please)? (?:(?:the|that|this|a|one|another|my|some)(?: \w+){0,2}? (?:straw ?berr(?:y|ies)|berr(?:y|ies)|fruit|one)\b|(?:straw ?berr(?:y|ies)|berr(?:y|ies))(?=\s*(?:$|[.,;:!])))|"
     r"(?:initiate|start|begin|run|execute|perform|trigger)(?: the| a| your)? (?:pick\w*|grasp\w*|grip\w*|lift\w*)(?:[- ]up)? (?:sequence|cycle|routine|procedure|motion|run)\b)"
 )
 """'I would like to have this fruit', 'initiate pick sequence'."""
 _SHORT = re.compile(
-    r"^(?=.*(?:berry|fruit|usual|standard|default|next|again|another|one more))(?:(?:the|that|this|a|one|red|ripe|next|straw|berry|strawberry|fruit|please|up|now|ok|okay|alright|right|good|yo|hey|robot|go|and|then|usual|normal|standard|default|same|again|another|once|more|pick-?up|pick|grasp|lift)\b[ ,!.]*)+$"
+    r"^(?=.*(?:berry|fruit|usual|standard|default|next|again|another|one more))(?:(?:the|that|this|a|one|my|our|red|ripe|next|straw|berry|strawberry|fruit|please|if you please|if you would|kindly|up|now|ok|okay|alright|right|good|yo|hey|robot|go|and|then|usual|normal|standard|default|same|again|another|once|more|pick-?up|pick|grasp|lift)\b[ ,!.]*)+$"
 )
 
 
@@ -173,6 +173,9 @@ def _meant(clean: str) -> tuple[str, Quantities, str]:
     if not statements.words:
         return clean, numbers, ""
     rest = read_quantities(statements.rest)
+    read = {force.value_n for force in numbers.forces}
+    if any(force.value_n not in read for force in rest.forces):
+        return clean, numbers, ""  # 'take 2 N, subtract 0.5 N': what is stated changes what is left
     is_left = rest.forces or rest.delta_n is not None
     if statements.is_elsewhere:
         return statements.rest, rest, ""

@@ -73,7 +73,7 @@ _CLEAR_OF = re.compile(
     r"(?=\s*(?:$|[.,;!]))|(?:that|this|those|these|the|any|such)(?: \w+)? (?:figures?|values?|numbers?|forces?|levels?|regions?|zones?|range|marks?|limits?|thresholds?|areas?|territory|territories|settings?|pressures?|newtons?|readings?|regime)\b)"
 )
 _AT_A_FORCE = re.compile(
-    r"(?: (?:the|it|grip|grasp|gripping|closing|at|if|when|once|as|soon|force|reaches|exceeds|goes|over|above|beyond|past|anything|everything))* ?#"
+    r"(?: (?:the|it|you|we|grip|grasp|gripping|squeeze|squeezing|closing|at|if|when|once|as|soon|moment|instant|second|force|reaches|reach|hits?|exceeds?|goes|go|gets?|to|over|above|beyond|past|anything|everything))* ?#"
 )
 _LEFT = re.compile(
     r"(?:leav(?:e|ing)|(?:keep|stay|steer|back)(?: well| far)? (?:away|clear|off|back)(?: from| of)?|(?:keep )?(?:your )?hands off(?: of)?|keep (?:your|the|its|that) (?:gripper|fingers?|hands?|jaws?|claws?|paws|robot)(?: well| far)? (?:off|away|clear)(?: from| of)?|"

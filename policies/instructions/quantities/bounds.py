@@ -25,6 +25,12 @@ _LESS = r"(?:less than|under|below|beneath|lower than|softer than|smaller than|f
 _FORCE = r"(?:the )?(?:grip(?:ping)? )?(?:force|f|grip|pressure|it|x)\b"
 _ADVERB = r"(?: \w+ly| ever| to| be| under any circumstances| at any time)*"
 
+_SIDE = r"(?:(?:anything|any|go|going|force|a force|and|or|but|so) )*"
+_NO = (
+    r"(?:(?:no|nope|nah|never|nein)(?: (?:way|chance|thanks?|thank you|sir|please))?|not (?:ok\w*|allowed|a chance|today|here|with me)|absolutely not|forbidden|do not(?: you dare| even think(?: about it| of it)?)?|out of the question|forget it)\b"
+    r"(?: ?[.!,;:–-]+ ?(?:(?:any(?:thing)? )?(?:less|more|below|under|above|over)(?: than that)? (?:is|would be) (?:fine|ok(?:ay)?|all right|good|no problem)|(?:it|that) (?:would|will|might|could|can)(?: \w+){1,4}))?"
+)
+"""'More than 1 N? No. Less is fine.'"""
 _BEHIND = rf"{_ONE}{_WHAT},? (?:(?:which|that) )?(?:{_MODAL} )*{_NOT}{_ADVERB} "
 _SHORT_WORDS = r"(?:(?!no\b|not\b|nor\b|never\b)\w+ ){0,2}"
 
@@ -35,6 +41,9 @@ _THERE = r"[^.;:,#\d]{0,50}?"
 _NO_AND = r"(?:(?!\band\b)[^.;:,#\d]){0,50}?"
 
 _PLAIN = tuple((NumberPattern(pattern), plainly) for pattern, plainly in (
+    (rf"(?:^|(?<=[.;!,:] )){_SIDE}{_MORE} {_ONE} ?\? ?{_NO}", r"at most \g<one>"),
+    (rf"(?:^|(?<=[.;!,:] )){_SIDE}{_LESS} {_ONE} ?\? ?{_NO}", r"at least \g<one>"),
+    (rf"\b(?:limits|bounds|ends|thresholds|extremes)(?: (?!not\b|never\b)\w+){{0,3}}? ?(?:are|:|=|of) (?P<low>{NUMBER}(?:\s*(?:{UNIT})\b)?) ?(?:and|to|-|–) {_ONE}", r"between \g<low> and \g<one>"),
     (rf"\bnot (?:even )?(?:an?|one|{NUMBER})\s*(?:{UNIT}) (?:above|over|beyond|more than) {_ONE}", r"at most \g<one>"),
     (rf"\b(?:can|could|will|would|do) not you\b[^.;,#\d]*?\b{_LESS} {_ONE}", r"at most \g<one>"),
     (rf"\b(?:stay|steer|keep|remain)\w* (?:well |far |right )?(?:away|clear|off|out)(?: (?:from|of))?(?: the)? {_ONE}", r"at most \g<one>"),
@@ -167,6 +176,11 @@ def _as_bound(match: re.Match[str]) -> str:
     return f"{'at most' if match['most'] else 'at least'} {match['force']}"
 
 
+_NO_LOOSER = NumberPattern(
+    r"\b(?:do|must|should|may|can|will)? ?(?:not|never)(?: (?:ever|even|let it))* (?:loosen|relax|slacken|soften|weaken|ease(?: off| up)?|back off|let (?:go|up)|give way)(?: (?:it|off|up|the \w+|your \w+))* (?:past|beyond|further than) "
+    rf"(?={NUMBER}\s*-?\s*(?:{UNIT})\b)"
+)
+"""'Do not loosen past 0.6 N.'"""
 _ENTRY = re.compile(
     r"(?:(?<=^)|(?<=[;,.?] ))(?:(?:object|fruit|berry|the|its) )?(?:weight|mass|width|size|diameter|length|temperature|colou?r|origin|variety|lot|batch|id|date|time) ?[:=?] ?(?:about )?[^;,.?]*(?:\.\d+[^;,.?]*)?(?:[;,.] ?|$)"
 )
@@ -184,7 +198,7 @@ def with_bounds_at_forces(text: str) -> str:
     text = _OF_FORCE.sub(r"\g<force>", _WORDED.sub("", text))
     text = _TOLD_BEFORE.sub(r"\g<told>. ", text)
     text = _CALLED_LATER.sub(_as_bound, _BOUND_LATER.sub(_as_bound, text))
-    text = _NO_MORE.sub(r"\g<force> at most", text)
+    text = _NO_LOOSER.sub(" hold it with at least ", _NO_MORE.sub(r"\g<force> at most", text))
     return _AFTER_BOUND.sub(r"\g<bound> ", text)
 
 

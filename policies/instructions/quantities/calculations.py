@@ -23,9 +23,13 @@ _CHANGED_TO = re.compile(
     rf"\b(?:reduce|lower|decrease|turn|bring|change|correct|go|drop|move|switch|take|dial|ease|scale|back|cut)\b(?: (?!from\b)[a-z]+){{0,4}}? (?:from )?(?P<v>{NUMBER})\s*(?P<vu>(?:{UNIT})\b)? (?:down )?to (?P<w>{NUMBER})\s*(?P<wu>(?:{UNIT})\b)"
 )
 
+_RAISED_TO = re.compile(
+    rf"(?<!may )(?<!can )(?<!could )(?<!might )(?<!not )(?<!never )\b(?:increas|rais|boost|bump|step|crank|turn|ramp|push|strengthen|tighten)(?:e|ing)?\b(?: (?!from\b|not\b|any\w*\b)[a-z]+){{0,5}}? from {NUMBER}\s*(?:(?:{UNIT})\b)? (?:up )?to (?P<force>{NUMBER}\s*(?:{UNIT})\b)"
+)
+
 
 def with_shares(text: str) -> str:
-    """Fractions in digits of a force worked out ('1/4 of 2 n'), and what a force is lowered to."""
+    """Fractions in digits of a force worked out ('1/4 of 2 n'), and what a force is changed to."""
 
     def share(found: re.Match[str]) -> str:
         part = float(found["c"]) if found["c"] else int(found["a"]) / int(found["b"])
@@ -36,7 +40,7 @@ def with_shares(text: str) -> str:
         is_less = in_newtons(found["w"], found["wu"]) < before_n
         return f"use {found['w']} {found['wu']}" if is_less else found[0]
 
-    return _CHANGED_TO.sub(lowered, _SHARE_OF.sub(share, text))
+    return _RAISED_TO.sub(r"use \g<force>", _CHANGED_TO.sub(lowered, _SHARE_OF.sub(share, text)))
 
 
 _BARE = NUMBER.removeprefix(ALONE)

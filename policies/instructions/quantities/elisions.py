@@ -43,7 +43,7 @@ _OF_THAT = re.compile(
 )
 
 _BOUND = (
-    r"(?:at (?:the )?(?:very |absolute )?(?:most|least)|(?:less|more|lower|higher|harder|softer) than|"
+    r"(?:at (?:the )?(?:very |absolute )?(?:most|least)|(?:less|more|lower|higher|harder|softer|stronger|weaker|firmer|gentler|tighter|looser|lighter|heavier|greater|smaller) than|"
     r"(?:no|not|never|nor) (?:under|over|above|below)|under|over|above|below|beneath|up to|exceed(?:ing)?|"
     r"(?:max(?:imum|imally)?|min(?:imum|imally)?|limit|ceiling|cap|floor|(?:upper|lower|top|bottom) (?:bound|limit|end)|(?:hard )?stop)\b\.?(?: of| is| at| to)?|"
     r"(?:bruis|crush|slip|slid|break|burst|squash)\w* (?:at|from))"

@@ -75,6 +75,14 @@ _FIRST_PART = re.compile(
 )
 """'A quarter to three quarters of a newton': the first part is of a newton too."""
 
+_SHARED_PART = re.compile(
+    rf"(?P<between>\bbetween )?(?<![.,/\d])\b(?P<a>\d+)(?P<link> ?(?:-|–) ?| (?:to|or|up to|through) |(?(between) and | to ))"
+    rf"(?P<rest>\d+[ -](?P<part>{_PART})\b{_OF_A}{_UNIT})"
+)
+"""'6 to 12 tenths of a newton': the part counts for both."""
+_PART_ALONE = re.compile(rf"(?<=than )(\d+)[ -]({_PART})(?=\s*(?:$|[.,;:!?)]))")
+"""'No stronger than 12 tenths', of the unit that stands elsewhere."""
+
 _UNDER_TEN = "|".join(word for word, value in _SMALL.items() if 0 < value < 10)
 _SHARED_SCALE = re.compile(
     rf"(?P<before>\bbetween )?(?<![.,\d])(?<!ty[ -])(?<!hundred )(?<!thousand )(?<!point )(?<!and )\b(?P<a>{_UNDER_TEN}|[1-9])"
@@ -127,6 +135,8 @@ def in_digits(text: str) -> str:
         text,
     )
     text = re.sub(r"\bbetween (?:(?:an?|one|1) )?half and(?= \d)", "between 0.5 and", text)
+    text = _SHARED_PART.sub(r"\g<between>\g<a> \g<part>\g<link>\g<rest>", text)
+    text = _PART_ALONE.sub(_fraction, text)
     text = _FIRST_PART.sub(
         lambda m: f"{m['between'] or ''}{_count(m['n']) * _part(m['part']):.6g}{m['link']}", text
     )

@@ -30,7 +30,7 @@ _MOST = re.compile(
     r"\bcritical (?:force|load|value|level|point)(?: of| is| at| to|:| =|=)?|"
     r"\b(?:alarm|trip|overload|risk|fault|critical)(?: (?:is|at))*\s*[:=]|\b(?:alarm|trip|overload|fault)s?(?: is)? (?:set )?at|"
     r"\b(?:alarm|trip(?:ping)?|fault|safety|abort|stop|shut-?down|e-?stop|emergency|overload|warning)s?[ -](?:threshold|level|point|limit|value|mark|line)(?: of| is| at| to|:| =|=)?|\b(?:red|danger) ?line(?: of| is| at|:| =|=)?|"
-    r"\b(?:upper|top) (?:\w+ )?(?:limit|bound|end)(?: \w+){0,2}?(?: of| is| at|:| =|=)?|\bpeaks?(?: \w+){0,2}?(?: of| is| at|:| =|=)?|"
+    r"\b(?:upper|top) (?:\w+ )?(?:limit|bound|end|threshold|cut-?off)(?: (?!not\b|never\b)\w+){0,3}?(?: of| is| at|:| =|=)?|\bpeaks?(?: \w+){0,2}?(?: of| is| at|:| =|=)?|"
     r"\b(?:bruis\w*|ruptur\w*|fractur\w*|fail\w*|break\w*|burst\w*|crush\w*|damag\w*|yield\w*|crack\w*|tear\w*|squash\w*|collaps\w*) (?:threshold|onset|force|load|limit|point|level|pressure|strength|mark)s?(?: (?:is|of|at|about))*\s*[:=]?|\b(?:warning|danger|caution)\s*[:=]|"
     r"\bkeep(?:s|ing)?(?: \w+){0,3} from (?:reach|hitt|gett|ris|go|climb)ing(?: (?:up |all the way )?to)?|\b(?:can not|could not|will not|never) (?:handle|take|stand|bear|withstand|tolerate|survive|endure)|"
     r"<=|≤|=<|\bnot to exceed|\bat (?:the )?worst|\bworst case|\bwithin|\bbounded (?:above )?(?:by|at)|\b(?:not|never)(?: let it)? (?:go|push|squeeze|press)(?: \w{1,4})?|\b(?:top|max|peak|level)(?:p?ing|s|p?ed)?(?: \w+)?(?: out)? at|\b(?:restrict|confin|constrain|throttl)\w*(?: \w+){0,3}? (?:to|at|by)|\b(?:may|can|could|might)(?: only| just| at most)? (?:be (?:raised|increased)|rise|go|climb|increase|grow|build|reach|extend)(?: up)?(?: to)?|\b(?:not|never|without|avoid\w*)(?: (?:ever|let|the|force|it|grip|even|quite|to|be|going|you|allow\w*|pressure|have|want|go|come|rise)){0,5} (?:reach(?:es|ing)?|hit(?:s|ting)?|get(?:s|ting)? (?:up )?to|attain\w*|ris(?:e|es|ing) to|climb\w* to|go(?:ing|es)? (?:up |all the way )?to)|\b(?:budget|allowance)(?: of| is|:)?|\bno more than|\bnowhere near|\b(?:allow(?:ed)?|permit(?:ted)?)(?: is (?:until|till|up to))?(?: (?:up )?to(?: (?:use|reach|rise to|climb to|go(?: up)? to))?)?|"
@@ -82,10 +82,10 @@ _LEAST_AFTER = re.compile(
     r"(?:(?:is|was|were|would be|are|will be|will|proved|turned out) )?(?:(?:to be )?not (?:do|enough)|(?:just |way |far )?too (?:little|light|soft|low|weak))|"
     rf"(?:it|they|the \w+) (?:still |just |already )?{_SLIPS}\b)" + _OTHERS
 )
-_NO_VERB = r"\b(?:not|never)(?: (?:ever|please|just|even|go|get|be|rise|climb|push|press|squeeze|let|take|force|it|any))*"
+_NO_VERB = r"\b(?:not|never)(?: (?:ever|please|just|even|to|go|get|be|rise|climb|push|press|squeeze|let|take|force|it|any))*"
 _END = (
     r"(?=\s*(?:$|[.;,!)])"
-    r"| (?:and(?! (?:above|below|beyond|over|under)\b)|but|because|since|so|please)\b)"
+    r"| (?:and(?! (?:above|below|beyond|over|under)\b)|but|because|since|so|please|when|while|as long as|until|today|whatever|at any|at all|ever)\b)"
 )
 _NO_FURTHER = rf"{_NO_VERB} (?:exceed|over|above|beyond|past|further|higher|harder){_END}"
 """'1 N is plenty, do not go beyond'."""
@@ -126,7 +126,7 @@ _REACHED = re.compile(
     r"\b(?:if|when|whenever|once|should|as soon as|the (?:moment|instant|second|minute|point (?:at which|where))|at the (?:moment|point)|by the time|the very (?:moment|instant))\b(?: [\w'-]+){1,6}? (?:reach(?:es|ed)?|feels?|sees?|measures?|hits?|gets? to|comes? to|goes to|attains?|shows?|reads?|says?|reports?|indicates?|displays?|registers?|records?|crosses|touch(?:es)?|passes|is at|are at|climbs? to|rises? to)(?: (?:about|around|roughly))?\s*$"
 )
 _STOP_ONCE = re.compile(
-    r"\b(?:stop|quit|halt|cease|freeze|finish|end|enough|cut (?:out|off|it|the)|leave off|back off|ease off|let up|hold off|pull up|call it|no (?:further|more|tighter|harder|firmer)|(?:not|never)(?: \w+){1,4}? (?:further|more|tighter|harder|firmer|any ?more))\b[^.;#\d]{0,40}$"
+    r"\b(?:stop|quit|halt|cease|freeze|finish|end|enough|cut (?:out|off|it|the)|abort|release|leave off|back off|ease off|let up|hold off|pull up|call it|no (?:further|more|tighter|harder|firmer)|(?:not|never)(?: \w+){1,4}? (?:further|more|tighter|harder|firmer|any ?more))\b[^.;#\d]{0,40}$"
 )
 """Before 'as soon as the sensor reads 1 N': what is reached ends it."""
 _NOT_STOPPED = re.compile(r"\b(?:not|never|without|no need to)(?: (?!stop)\w+){0,2} $")
@@ -271,7 +271,7 @@ _BUT_NEVER = re.compile(
 )
 """'You can squeeze with more than 0.9 N, but never with less.'"""
 _TOO_MUCH = re.compile(
-    rf"[^.;#(]{{0,30}}\b(?:(?<!not )(?<!never )too (?:much|far|hard)|out of|no go|not ok\w*|pointless|useless|no (?:use|sense|point|need|good)|wast\w+|{_UNWANTED}|(?:you|we|it) (?:must|may|should|shall|can|are to) not|(?:not|never) (?:be )?(?:needed|necessary|required|called for|wise|good|wanted|used)|jam\b|juice\b|{_HARMS})"
+    rf"[^.;#(]{{0,30}}\b(?:(?<!not )(?<!never )too (?:much|far|hard)|out of|no go|not ok\w*|pointless|useless|no (?:use|sense|point|need|good)|wast\w+|{_UNWANTED}|(?:you|we|it) (?:must|may|should|shall|can|are to) not|(?:not|never) (?:be )?(?:needed|necessary|required|called for|wise|good|wanted|used)|jam\b|juice\b|smoothies?\b|pur[eé]e|pulp\b|mush\b|sauce\b|{_HARMS})"
 )
 _TOO_LITTLE = re.compile(
     rf"(?:(?!\b(?:not|never|no|without)\b)[^.;#(]){{0,20}}\b(?:will not do|not (?:allowed|acceptable|permitted|ok\w*|on)|forbidden|banned|not (?:enough|sufficient)|too little|insufficient|useless|will not hold|no good|not acceptable|{_SLIPS}\w*(?!\w){NO_OTHER_FORCE}|let it|(?:gets?|is|becomes?|feels) (?:loose|shaky|unstable|slippery))"
