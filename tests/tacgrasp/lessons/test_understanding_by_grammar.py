@@ -1023,6 +1023,28 @@ def test_parts_of_a_question_may_stand_elsewhere(question: str, query: str) -> N
             "Centred or off-centre? I count anything within 3 mm of the middle as centred.",
             "calculate 'Centred' if hypot(x_mm, y_mm) <= 3 else 'off-centre'.",
         ),
+        ("Would 'small' be the wrong word for the contact area?", "check not area small."),
+        ("Going by your position word, is it in the center?", "check position centered."),
+        ("Correct me if not: that shape is an ellipsoid?", "check shape ellipsoid."),
+        ("In cm, what is the y coordinate of the patch?", "amount y cm."),
+        (
+            "How far sideways from the middle does it sit, ignoring which side, in mm?",
+            "amount offset_x mm.",
+        ),
+        (
+            "How many mm toward the fingertip is the contact, negative meaning toward the palm?",
+            "calculate -1 * y_mm in mm.",
+        ),
+        (
+            "Squeezed by at least three times its own weight, is it?",
+            "calculate force_n >= 0.00980665 * 3 * mass_g.",
+        ),
+        ("Are x and y both positive?", "check x > #1 mm; check y > #1 mm."),
+        (
+            "What's larger: the force now, or the room that remains until the limit?",
+            "calculate 'the force' if force_n > 0.5 * limit_n else 'the room'.",
+        ),
+        ("It costs me money if it bruises, so is the force under the limit?", "check force under."),
     ],
 )
 def test_whole_questions_are_read_in_the_clause_that_others_ask_them_in(

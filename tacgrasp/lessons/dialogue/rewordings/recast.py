@@ -48,6 +48,12 @@ _JUDGED = (
     r"(?:the )?(?:(?:contact|grip|gripping|press) )?(?:force|depth|area|coverage|grip|squeeze)"
 )
 
+_WORD_OF = r"(?:shape|texture|surface|position|location|place|depth|area|size)"
+_NAMED = (
+    r"(?:the |its |this )?(?:(?:contact|press|grip) )?"
+    r"(?:area|depth|position|shape|texture|surface|skin|press|indentation|dent|contact)"
+)
+
 _Plain = str | Callable[[re.Match[str]], str]
 
 
@@ -319,6 +325,33 @@ _RECAST: tuple[tuple[str, _Plain], ...] = (
     (rf"^(?P<a>cent(?:re|er)d|central|in the middle) or (?P<b>off[- ]cent(?:re|er)|off|not)[?.;,] *(?:i|we) (?:count|call|take|consider) (?:anything|everything) within (?P<n>{_LENGTH}) of the (?:middle|cent(?:re|er)) (?:as )?(?P=a)" + _END, r"say '\g<a>' if it is within \g<n> of the middle, otherwise '\g<b>'"),
     (r"^which kind of (?:solid|body|shape) (?:is the (?:pad|gel|sensor) feeling|do you feel|are you feeling)" + _END, "what shape is it"),
     (r"^what does the surface against (?:you|the pad) feel like[:;,] *(?=what is its shape)", ""),
+    (r"\bhalf a centimet(?:re|er)\b", "5 mm"),
+    (r"\b(?P<w>coordinate|position) of the (?:patch|footprint|imprint|touch)\b", r"\g<w> of the contact"),
+    # Words that fit or don't.
+    (rf"^(?:would|is|does) ['\"“]?(?P<w>[\w -]+?)['\"”]? (?:be |count as )?(?:the|an?) (?:wrong|incorrect|false|bad|poor|unsuitable) (?:word|label|term|name|description|category) for (?P<s>{_NAMED})" + _END, r"is \g<s> not \g<w>"),
+    (rf"^(?:going|judging|according) (?:by|from|to) (?:your|the|its) (?:{_WORD_OF} )?(?:word|label|class|category)(?: (?:for|of) (?:the )?(?:{_WORD_OF}))?,? (?=(?:is|are|does|do|would|what|where)\b)", ""),
+    (rf"^(?P<a>[\w -]+?) or (?P<b>[\w -]+?),? (?:going|judging|according) (?:by|from|to) (?:your|the|its) (?:{_WORD_OF} )?(?:word|label|class|category)" + _END, r"is it \g<a> or \g<b>"),
+    (r"^(?:please )?(?:correct me|stop me|tell me|shout|say so) if (?:not|(?:i['’]?m|i am) (?:wrong|mistaken)|(?:that|this|it)(?:['’]s| is) (?:wrong|false|not so))[:,;.–—-]+ *(?:but )?(?P<q>[^?.;:]+)" + _END, r"is it true that \g<q>"),
+    (r"^(?:the )?shape is (?:an? )?(?P<a>\w+) or (?:an? )?(?P<b>\w+),? (?:i\.?e\.?|that is|meaning)[, ]+(?:one|either) of (?:these|those|the|them)(?: two)?[^?]*" + _END, r"is the shape a \g<a> or a \g<b>, yes or no"),
+    # Numbers asked for in other words.
+    (rf"^in (?P<unit>{_UNIT}),? (?P<q>(?:what|how)(?: is|['’]s| are| far| much) [^?]*\b(?:x|y|middle|cent(?:re|er)|edge|border)\b[^?]*?)" + _END, r"\g<q>, in \g<unit>"),
+    (rf"^how far (?P<way>sideways|to the side|up or down|along the finger) (?:from {_MIDDLE} )?(?:does it sit|is it|is {_CONTACT}|does {_CONTACT} (?:sit|lie))(?: from {_MIDDLE})?,? (?:ignoring|disregarding|regardless of|no matter|whichever|never mind) (?:which|the) (?:side|way|direction)(?P<unit>,? in \w+)?" + _END,
+     lambda m: f"how far is it from the middle along {'x' if 'side' in m['way'].lower() else 'y'}, without sign{_told_unit(m)}"),
+    (rf"^how many (?P<unit>\w+) (?:toward|towards|to) (?:the|your|my) (?P<way>palm|fingertip|tip)(?: side| end)? is {_CONTACT},? (?:with )?(?:an? )?(?:negative|minus)(?: sign| number)? (?:meaning|for|being|if|when|means) [^?]*" + _END,
+     lambda m: f"what is {'' if m['way'].lower() == 'palm' else 'minus '}y in {m['unit']}"),
+    (rf"^{_PAD} (?:is|measures) [\d.]+ ?(?:mm)? ?(?:by|x|×) ?[\d.]+ ?(?:mm)? *[.;,:–—-]+ *(?:so )?(?P<q>(?:how|what) [^?]+)" + _END, r"\g<q>"),
+    (r"^on a scale (?:where|on which|with) (?:0|zero) (?:is|being|means|=) no (?:force|grip) and (?:1|one) (?:is|being|means|=)? ?the limit,? (?:where|what) is the (?:grip|force)" + _END, "what is the force divided by the limit"),
+    (rf"^how many times its(?: own)? weight (?:is|are) (?:the \w+|it|{_FORCE}) (?:being )?(?:squeezed|gripped|pressed|held)(?: with)?" + _END, "how many times the weight of the object is the force"),
+    (r"^(?:squeezed|gripped|pressed|held) (?:by|with|at) (?P<c>at least|at most|more than|less than) (?P<n>[\w.]+) times its(?: own)? weight,? is it" + _END, r"is the force \g<c> \g<n> times the weight of the object"),
+    (r"^(?P<q>does (?:the |this )?(?:contact|touch|patch|object|it|berry) (?:take up|cover|fill|occupy)) (?P<n>an? \w+|one \w+|half|[\d.]+ ?(?:%|per ?cent)) or (?P<c>more|less) of (?:the |your |our )?(?:surface|pad|gel|sensor|area)" + _END,
+     lambda m: f"{m['q']} at {'least' if m['c'].lower() == 'more' else 'most'} {m['n']} of the pad"),
+    (r"^are x and y both (?P<w>positive|negative)" + _END, lambda m: "is x {0} 0 mm and y {0} 0 mm".format("above" if m["w"].lower() == "positive" else "below")),
+    (rf"^does (?:your|the|its) {_WORD_OF} (?:label|word|class|category) (?:have|contain|include) ['\"“]?(?P<w>top|bottom|left|right)['\"”]?(?: in it)?" + _END,
+     lambda m: f"is it in the {m['w']} {'row' if m['w'].lower() in ('top', 'bottom') else 'column'}"),
+    (r"^(?:have (?:we|you|i) (?:spent|used)|is the force|are we at) (?P<a>less than half) (?:of )?the limit,? or (?:already )?(?P<b>more than half|more)(?: of it)?" + _END, r"say '\g<a>' if the force is below half of the limit, otherwise '\g<b>'"),
+    (r"^(?:what|which)(?:['’]s| is) (?P<c>larger|bigger|greater|more|smaller|less)[:,]? (?:the )?(?P<a>force)(?: now)?,? or (?:the )?(?P<b>room|headroom|rest|remainder)(?: that)?(?: is)?(?: left| remains| remaining)? (?:until|till|up to|to|before) the limit" + _END,
+     lambda m: f"say 'the {m['a']}' if the force is {'above' if m['c'].lower() in ('larger', 'bigger', 'greater', 'more') else 'below'} half of the limit, otherwise 'the {m['b']}'"),
+    (r"^[^?\d]*\b(?:if|because|since|as|when)\b[^?\d]*, so (?P<q>(?:is|are|does|do|has|have|am) [^?,]+)" + _END, r"\g<q>"),
     # Words to choose from.
     (rf"^(?:the )?(?:force|depth|contact|grip|press|area|touch|it)? ?(?:is )?(?P<one>{_LITTLE}|{_MUCH})(?:,)? or (?P<two>{_LITTLE}|{_MUCH}),? (?:if|with|given|taking|where) {_BOUNDARY} (?:is|at|being|of|as)? ?(?P<n>\d[\d.,]* ?[a-zµ%²]+)" + _END,
      _said_by_size),
