@@ -92,6 +92,23 @@ UNITS: Mapping[str, Unit] = {
 _UNIT_OF_ENDING = {"mm": "mm", "mm2": "mm²", "n": "N", "percent": "%", "g": "g"}
 
 
+_MEASURED = (
+    (r"m?n|(?:milli)?newtons?", "the force"),
+    (r"mm|[µu]m|cm|microns?|(?:milli|micro|centi)met(?:re|er)s?", "the depth"),
+    (r"%|per ?cent|mm²|mm2", "the contact area"),
+)
+
+
+def measured_by(number: str) -> str:
+    """What a unit measures of a contact, in words; '' of other units.
+
+    Args:
+        number: The unit as people write it, with or without a number before it: 'mm', '2.5 N'.
+    """
+    unit = re.sub(r"^[\d.,]+ ?", "", number)
+    return next((what for units, what in _MEASURED if re.fullmatch(units, unit, re.I)), "")
+
+
 def unit_of_name(name: str) -> str:
     """Unit of a name of ``AskedScene.values``, which ends with it; '' of a word."""
     return _UNIT_OF_ENDING.get(name.rpartition("_")[2], "")

@@ -14,6 +14,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 
+from tacgrasp.lessons.dialogue.quantities import measured_by
 from tacgrasp.lessons.dialogue.rewordings.moved import OTHER_HALF
 
 _END = r"(?=[?.! ]*$)"
@@ -80,7 +81,7 @@ def _said_by_size(found: re.Match[str]) -> str:
     more, less = (one, two) if re.fullmatch(_MUCH, one) else (two, one)
     if not (re.fullmatch(_MUCH, more) and re.fullmatch(_LITTLE, less)):
         return found[0]
-    measured = _measured(found["n"])
+    measured = measured_by(found["n"])
     if not measured:
         return found[0]
     return f"say '{more}' if {measured} is above {found['n']}, otherwise '{less}'"
@@ -91,23 +92,13 @@ def _graded(found: re.Match[str]) -> str:
     low, middle, high = (found[name].lower() for name in ("low", "middle", "high"))
     if found["first"].lower() != low or found["last"].lower() != high:
         return found[0]
-    measured = _measured(found["a"])
+    measured = measured_by(found["a"])
     if not measured:
         return found[0]
     return (
         f"say '{low}' if {measured} is below {found['a']}, '{high}' if {measured} is above "
         f"{found['b']}, otherwise '{middle}'"
     )
-
-
-def _measured(number: str) -> str:
-    """What a number's unit measures."""
-    units = {
-        r".*newtons?|.*\dN|.*\d ?m?N": "the force",
-        r".*(?:mm|[µu]m|cm|microns?|met(?:re|er)s?)": "the depth",
-        r".*(?:%|per ?cent)": "the contact area",
-    }
-    return next((what for unit, what in units.items() if re.fullmatch(unit, number, re.I)), "")
 
 
 def _along_or_across(found: re.Match[str]) -> str:

@@ -18,6 +18,7 @@ from collections.abc import Callable
 
 from cltp.texts.captions import with_article
 from tacgrasp.lessons.dialogue.plainer import AUXILIARY
+from tacgrasp.lessons.dialogue.quantities import measured_by
 from tacgrasp.lessons.dialogue.rewordings.moved import with_parts_in_place
 from tacgrasp.lessons.dialogue.rewordings.phrases import with_plain_phrases
 from tacgrasp.lessons.dialogue.rewordings.recast import recast
@@ -119,11 +120,6 @@ _FORBIDDEN = re.compile(
 )
 """'The card says never past 2.5 N. Have I?'"""
 
-_MEASURES = (
-    (r"m?n|newtons?|millinewtons?", "the force"),
-    (r"mm|[µu]m|microns?|millimet\w+|micromet\w+", "the depth"),
-    (r"%|percent|mm²|mm2", "the contact area"),
-)
 _WANTS_TO_KNOW = re.compile(
     r"(?P<before>.+[,;.!–—-]) *(?:and |but |so |now )*(?:i|we|my \w+|the \w+)(?:['’]d)? "
     r"(?:just |only |really |merely )*(?:want|wants|need|needs|would like|like|would love|have|"
@@ -260,19 +256,14 @@ def _graded(text: str) -> str:
 
 def _of_measure(bound: str, unit: str) -> str:
     """A bound with the quantity that its unit measures; '' of other units."""
-    what = _measured(unit)
+    what = measured_by(unit)
     return f"{what} is {bound}" if what else ""
-
-
-def _measured(unit: str) -> str:
-    """The quantity that a unit measures; '' of other units."""
-    return next((name for units, name in _MEASURES if re.fullmatch(units, unit, re.I)), "")
 
 
 def _from_that(text: str) -> str:
     """How far what is felt is from the number told before."""
     found = _FROM_THAT.fullmatch(text)
-    what = _measured(found["unit"]) if found else ""
+    what = measured_by(found["unit"]) if found else ""
     return f"How far is {what} from {found['number']}?" if found and what else ""
 
 
@@ -285,7 +276,7 @@ def _than_that(text: str) -> str:
 def _forbidden(text: str) -> str:
     """Whether what is felt is past the number that is forbidden."""
     found = _FORBIDDEN.fullmatch(text)
-    what = _measured(found["unit"]) if found else ""
+    what = measured_by(found["unit"]) if found else ""
     return f"Is {what} over {found['number']}?" if found and what else ""
 
 
