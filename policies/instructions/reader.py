@@ -173,9 +173,9 @@ def _meant(clean: str) -> tuple[str, Quantities, str]:
     if not statements.words:
         return clean, numbers, ""
     rest = read_quantities(statements.rest)
-    read = {force.value_n for force in numbers.forces}
-    if any(force.value_n not in read for force in rest.forces):
-        return clean, numbers, ""  # 'take 2 N, subtract 0.5 N': what is stated changes what is left
+    is_changed = rest.delta_n != numbers.delta_n or rest.factor != numbers.factor
+    if is_changed or (numbers.is_worked_out and (rest.forces != numbers.forces or numbers.unread)):
+        return clean, numbers, ""  # 'take 2 N, subtract 0.5 N': one clause changes another's force
     is_left = rest.forces or rest.delta_n is not None
     if statements.is_elsewhere:
         return statements.rest, rest, ""

@@ -72,7 +72,7 @@ _TAKE = r"(?:knock|tak|shav|trim|cut|lop|chop|subtract|deduct|remov|drop|dock|st
 _PUT = r"(?:add|put|tack|stick|pil|throw|lump|chuck|slap|pop|bung|whack|stack|giv)(?:e|ed|ing)?(?: it)?"
 _ONTO = rf"(?: (?:more|extra|on top|to|onto|on|of|besides|in addition|{_THAT}|it))*"
 
-_POINT = r"(?:(?:an? |the |some)?(?:\w+ )?)"
+_GO = r"(?:go|come|get|stay|run|(?:set|make|turn|nudge|bring|dial|move|put) (?:it|that|this))"
 _TWO = rf"(?P<a>{NUMBER})\s*(?P<u>(?:{UNIT})\b)?(?: ?(?:,|and|&|to|-|–) ?)+(?:the )?(?P<b>{_BARE})\s*(?P<v>(?:{UNIT})\b)"
 _MIDDLE = (
     r"(?:(?:average|mean|mid-?point|middle|centre|center|median)(?: value| figure| force)?(?: of| between| from)|"
@@ -108,7 +108,10 @@ _CHANGES: tuple[tuple[re.Pattern[str], int], ...] = (
     (re.compile(rf"\b(?P<by>{_AMOUNT}) (?:on top|extra|more|higher|firmer|tighter|harder|stronger|above|over|up)(?: of| than| on| from)? {_THAT}"), 1),
     (re.compile(rf"\b{_TAKE}(?: off)? {_ABOUT}(?P<by>{_AMOUNT}) (?:off|from|out of|away)(?: of)?(?: {_IT})?"), -1),
     (re.compile(rf"\b{_TAKE} off {_ABOUT}(?P<by>{_AMOUNT})"), -1),
-    (re.compile(rf"\b(?:subtract|deduct|los(?:e|ing)|subtracting|deducting|(?<!plus[ /-])(?<!or )(?<!and )(?<!/)minus|less) {_ABOUT}(?P<by>{_AMOUNT})"), -1),
+    (re.compile(rf"(?:\bplus|(?<=[,;:] )\+) {_ABOUT}(?P<by>{_AMOUNT})(?! (?:of )?(?:tolerance|margin|slack|at (?:the )?most|max))"), 1),
+    (re.compile(rf"\b{_GO} {_ABOUT}(?P<by>{_AMOUNT}) (?:lower|down|less|softer|gentler|lighter|looser|weaker)\b(?! than\b)"), -1),
+    (re.compile(rf"\b{_GO} {_ABOUT}(?P<by>{_AMOUNT}) (?:higher|up|more|firmer|tighter|harder|stronger)\b(?! than\b)"), 1),
+    (re.compile(rf"\b(?:subtract|deduct|remov(?:e|ing)|los(?:e|ing)|subtracting|deducting|(?<!plus[ /-])(?<!or )(?<!and )(?<!/)minus|less) {_ABOUT}(?P<by>{_AMOUNT})"), -1),
     (re.compile(rf"\b(?P<by>{_AMOUNT}) (?:less|lower|softer|gentler|lighter|looser|weaker|below|under|off|down|short)(?: of| than| from)? {_THAT}"), -1),
     (re.compile(rf"\b(?P<by>{_SHARE})(?: knocked| taken| shaved)? off(?=\s*(?:$|[.,;:!?)]|please|today|now|for|because|since))"), -1),
 )  # fmt: skip
@@ -126,6 +129,10 @@ _MULTIPLES: tuple[re.Pattern[str], ...] = (
     re.compile(rf"\b(?:scal(?:e|ed|ing)){_OBJECT} by (?P<share>{_SHARE}|{NUMBER})"),
     re.compile(rf"\b(?:cut|chop|split|divide|slice){_OBJECT} in (?P<share>half)\b"),
 )  # fmt: skip
+_MOVED_TO = re.compile(
+    rf"\b(?!up\b)(?:{_RAISE}|{_LOWER}|{_MOVE})(?: {_IT}| the (?:force|grip|squeeze|pressure))?(?: (?:up|down|back|off|further))* to {_ABOUT}(?P<to>{_FORCE})"
+)
+"""'1 N, lower it to 0.8 N'."""
 _STEMS = {"halv": 0.5, "doubl": 2.0, "tripl": 3.0, "trebl": 3.0, "quadrupl": 4.0}
 
 _DENIED = re.compile(
@@ -175,6 +182,23 @@ def unsure_change(text: str) -> str:
     return ""
 
 
+def change_of_range(text: str) -> str:
+    """Words of a change of a range that stands before it; '' for none.
+
+    Args:
+        text: What ``worked_out`` returned.
+    """
+    for pattern in (*(pattern for pattern, _ in _CHANGES), *_MULTIPLES):
+        for match in pattern.finditer(text):
+            ones = list(re.finditer(_FORCE, text[: match.start()]))
+            between = text[ones[-1].end() : match.start()] if ones else ""
+            if not ones or _DENIED.search(between) or _CONDITION.search(between):
+                continue
+            if _is_range(text, ones):
+                return match[0].strip()
+    return ""
+
+
 def _changed_within(match: re.Match[str], sign: int) -> str:
     return _changed(match["one"], match["by"], sign)
 
@@ -203,6 +227,10 @@ def _next(text: str, at: int) -> tuple[re.Match[str], int, str] | None:
             if one := _antecedent(text, match.start()):
                 found.append((match, match.start(), _times(one, _factor(match))))
                 break
+    for match in _MOVED_TO.finditer(text, at):
+        if _antecedent(text, match.start()):
+            found.append((match, match.start(), match["to"]))
+            break
     if not found:
         return None
     match, begin, one = min(found, key=lambda each: (each[1], -each[0].end()))
@@ -220,10 +248,14 @@ def _antecedent(text: str, place: int) -> str:
         return ""
     if _CONDITION.search(before[ones[-1].end() :]):
         return ""
-    if len(ones) > 1 and _PAIRED.fullmatch(before[ones[-2].end() : ones[-1].start()]):
-        return ""
-    is_range = re.search(rf"{NUMBER}\s*(?:-|–|to|or)\s*$", before[: ones[-1].start()])
-    return "" if is_range else ones[-1][0]
+    return "" if _is_range(before, ones) else ones[-1][0]
+
+
+def _is_range(text: str, ones: list[re.Match[str]]) -> bool:
+    """Whether the last of the forces of a text is the end of a range, or one of two."""
+    if len(ones) > 1 and _PAIRED.fullmatch(text[ones[-2].end() : ones[-1].start()]):
+        return True
+    return re.search(rf"{NUMBER}\s*(?:-|–|to|or)\s*$", text[: ones[-1].start()]) is not None
 
 
 def _changed(one: str, by: str, sign: int) -> str:

@@ -44,7 +44,7 @@ _DELTAS = tuple(
             1,
         ),
         (
-            rf"\b(?:subtract|take off|(?:reduce|lower|decrease|drop|cut|down|ease|back off)(?: \w+){{0,3}} by) {_ADDED}",
+            rf"\b(?:subtract|deduct|remove|take off|(?:reduce|lower|decrease|drop|cut|down|ease|back off)(?: \w+){{0,3}} by) {_ADDED}",
             -1,
         ),
     )

@@ -44,6 +44,7 @@ class Quantities:
     Attributes:
         forces: Forces in their order; the ends of a range are a least and a most.
         stated: Forces that are named beside them, and not asked for.
+        is_worked_out: Whether a force was worked out from others that the text names, or had to be.
         delta_n: Force to add to the task's ('half a newton more'); None where none is named [N].
         factor: Factor on the task's force ('half as hard'); None where none is named.
         factor_words: The words that name it.
@@ -62,6 +63,7 @@ class Quantities:
 
     forces: tuple[Force, ...] = ()
     stated: tuple[Force, ...] = ()
+    is_worked_out: bool = False
     delta_n: float | None = None
     factor: float | None = None
     factor_words: str = ""
@@ -134,12 +136,15 @@ def read_quantities(text: str) -> Quantities:
     for pattern, plainly in _SPELLINGS:
         text = pattern.sub(plainly, text)
     left_open = open_force(text)
-    text, unsure = text.replace(WORKED_OUT, "→"), ""
+    text, unsure, changed = text.replace(WORKED_OUT, "→"), "", ""
+    is_worked_out = False
     if re.search(r"\d", text):
         from policies.instructions.quantities import calculations
 
-        text = calculations.worked_out(calculations.with_shares(text))
+        text, before = calculations.worked_out(calculations.with_shares(text)), text
         unsure = calculations.unsure_change(text)
+        changed = calculations.change_of_range(text)
+        is_worked_out = text != before or changed != ""
     text, lone = without_lone(with_plain_tolerances(text))
     text = _CHAIN.sub(r"between \1 and \2 \3", text)
     text = with_plain_bounds(text)
@@ -162,11 +167,14 @@ def read_quantities(text: str) -> Quantities:
         denied = denied or denied_factor(before_factor, factor, factor_words)
     if unsure and any(force.kind == "value" for force in forces):
         unread = unread or f"{unsure!r} changes a force that it names; say the one that is meant"
+    if changed and {"least", "most"} <= {force.kind for force in forces}:
+        unread = unread or f"{changed!r} changes a range; say both ends of the one that is meant"
     is_alone = factor is None and area is None
     percentage = _PERCENT_OF_NOTHING.search(text) if is_alone else None
     return Quantities(
         forces=tuple(forces),
         stated=tuple(dropped),
+        is_worked_out=is_worked_out,
         delta_n=delta_n,
         factor=factor,
         factor_words=factor_words,
