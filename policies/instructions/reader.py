@@ -173,7 +173,9 @@ def _meant(clean: str) -> tuple[str, Quantities, str]:
     if not statements.words:
         return clean, numbers, ""
     rest = read_quantities(statements.rest)
-    is_changed = rest.delta_n != numbers.delta_n or rest.factor != numbers.factor
+    is_changed = (rest.delta_n is not None and numbers.delta_n is None) or (
+        rest.factor is not None and numbers.factor is None
+    )
     if is_changed or (numbers.is_worked_out and (rest.forces != numbers.forces or numbers.unread)):
         return clean, numbers, ""  # 'take 2 N, subtract 0.5 N': one clause changes another's force
     is_left = rest.forces or rest.delta_n is not None
