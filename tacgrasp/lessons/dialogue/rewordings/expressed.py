@@ -95,8 +95,8 @@ def _bare(question: str) -> tuple[str, str]:
 
 def _in_unit(expression: Expression, unit: str) -> Calculated | None:
     """A number in the unit that is said, or in that of its names where they share one."""
-    units = {unit_of_name(name) for name in expression.names}
-    own = units.pop() if len(units) == 1 and not expression.divided else ""
+    units_of = {unit_of_name(name) for name in expression.names}
+    own = next(iter(units_of)) if len(units_of) == 1 and not expression.divided else ""
     factor = expression.power_of_ten
     if unit == "%" and expression.is_percentage:
         return Calculated(truth=expression.text, unit=unit)
@@ -105,4 +105,6 @@ def _in_unit(expression: Expression, unit: str) -> Calculated | None:
             return Calculated(truth=expression.text, unit=unit)
         if abs(factor * UNITS[unit].size / UNITS[own].size - 1) < 1e-9:
             return Calculated(truth=f"({expression.text}) / {factor:g}", unit=unit)
+    if len(units_of) > 1 and unit in UNITS and factor == 1:
+        return Calculated(truth=expression.text, unit=unit)
     return Calculated(truth=expression.text, unit=own if factor == 1 else "")

@@ -22,6 +22,7 @@ from tacgrasp.lessons.dialogue.quantities import measured_by
 from tacgrasp.lessons.dialogue.rewordings.moved import with_parts_in_place
 from tacgrasp.lessons.dialogue.rewordings.phrases import with_plain_phrases
 from tacgrasp.lessons.dialogue.rewordings.recast import recast
+from tacgrasp.lessons.dialogue.rewordings.supposed import supposed
 
 _UNFELT_SIGNS = (
     r"(?!.*\b(?:signs?|directions?|units?|numbers?|figures?|digits|decimals?|left|right|side\w*|"
@@ -295,7 +296,7 @@ def _to_do(text: str) -> str:
 
 
 _READERS: tuple[Callable[[str], str], ...] = (
-    _affirmed, _neither, _without_aside, _told_apart, _which_one, _called, _graded, _forbidden,
+    supposed, _affirmed, _neither, _without_aside, _told_apart, _which_one, _called, _graded, _forbidden,
     _from_that, _than_that, _which_too, _to_do, recast, with_parts_in_place,
     with_plain_phrases, _wanted,
 )  # fmt: skip

@@ -1,0 +1,174 @@
+"""Questions about what would be, and differences in other words, as expressions of the numbers felt.
+
+    If the limit were 1 N lower, where would it lie?                  limit_n - 1
+    Let go by ten percent: the force would be what?                   force_n * 0.9
+    Ten objects like this one would have what mass?                   mass_g * 10
+    Is 1 N a force that the goal band would accept?                   band_low_n <= 1 <= band_high_n
+
+The expressions are in the names of a truth (``expressed`` reads them). Not here: other questions in
+one clause of their own (``recast``).
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+
+from policies.instructions.quantities.numerals import in_digits
+
+_END = r"(?=[?.! ]*$)"
+_LENGTH = (
+    r"(?:exactly |about )?(?P<n>\d[\d.]*) ?"
+    r"(?P<u>mm|[µu]m|cm|microns?|(?:milli|centi|micro)met(?:re|er)s?)"
+)
+_FORCE = r"(?:exactly |about )?(?P<n>\d[\d.]*) ?(?P<u>m?N|(?:milli)?newtons?)"
+_IF = (
+    r"(?:if|suppose|supposing|imagine|assume|assuming|say|let['’]s say|pretend|should|were|had)"
+    r"(?: that)?"
+)
+_WHOEVER = r"(?:somebody|someone|i|we|you|they|one|the \w+)"
+_SIGNLESS = (
+    r",? (?:ignoring|disregarding|regardless of|no matter|whatever|whichever|in which|sign)"
+    r"(?: (?:the|its|in which|which|is|be))*(?: (?:sign|direction|way|side|ignored|disregarded))*"
+)
+_DENT = r"(?:the )?(?:dent|indentation|penetration|press|depth|contact|it)"
+_GRIP = r"(?:the |my |your |our )?(?:(?:current|present|grip|gripping|measured) )*(?:force|grip|squeeze)"
+_AREA = r"(?:the )?(?:(?:contact|touch) )?(?:patch|area|coverage|footprint|contact)"
+_THING = r"(?:the )?(?:object|fruit|berry|strawberry|tomato|egg|peg|thing|contact|it)"
+_UNITS = (
+    r"(?:in )?(?P<u>mm²?|[µu]m|cm²?|microns?|m?N|k?g|gf|per ?cent|%|gram[- ]?forces?|(?:kilo)?grams?|"
+    r"(?:milli)?newtons?|(?:milli|centi|micro)met(?:re|er)s?)"
+)
+_NAMES = {
+    "force": "force", "grip": "force", "squeeze": "force", "limit": "limit", "ceiling": "limit",
+    "depth": "depth", "indentation": "depth", "area": "area", "coverage": "area",
+    "mass": "mass", "weight": "mass", "x": "x", "y": "y",
+}  # fmt: skip
+_SIZES = {"half": 0.5, "a third": 1 / 3, "a quarter": 0.25, "twice": 2.0, "double": 2.0}
+_LESS = re.compile(
+    r"lower|less|down|softer|reduc|decreas|drop|cut|let go|eas|loosen|back|relax", re.I
+)
+
+
+def _in_unit_of(found: re.Match[str], symbol: str) -> float:
+    """The number of a question in newtons or millimetres."""
+    unit = found["u"].lower()
+    is_small = unit.startswith("m" if symbol == "N" else ("µ", "um", "micro"))
+    scale = 1e-3 if is_small else 10.0 if unit.startswith("c") else 1.0
+    return float(found["n"].rstrip(".")) * scale
+
+
+def _mm(found: re.Match[str]) -> str:
+    return f"{_in_unit_of(found, 'mm'):g}"
+
+
+def _newtons(found: re.Match[str]) -> str:
+    return f"{_in_unit_of(found, 'N'):g}"
+
+
+def _moved(name: str, unit: str) -> Callable[[re.Match[str]], str]:
+    """A name, less or more by the question's number."""
+
+    def written(found: re.Match[str]) -> str:
+        sign = "-" if _LESS.search(found["way"]) else "+"
+        return f"{name} {sign} {_in_unit_of(found, unit):g}"
+
+    return written
+
+
+def _shifted(found: re.Match[str]) -> str:
+    """Where the contact's centre would be."""
+    way = found["way"].lower()
+    axis = "x" if way in ("left", "right") else "y"
+    sign = "-" if way in ("left", "fingertip", "fingertips", "tip", "bottom", "down") else "+"
+    return f"{axis}_mm {sign} {_mm(found)}"
+
+
+_Plain = str | Callable[[re.Match[str]], str]
+
+_SUPPOSED: tuple[tuple[str, _Plain], ...] = (
+    # Depths.
+    (rf"^how much (?:deeper or shallower|shallower or deeper) than {_LENGTH} is {_DENT}{_SIGNLESS}" + _END, lambda m: f"abs(depth_mm - {_mm(m)})"),
+    (rf"^(?:back|draw|pull)(?:ing)? (?:the )?(?:finger|pad|gripper|jaw)s? (?:off|back|away|out) by {_LENGTH}[^?]*? (?:would )?(?:leave|leaves|give|gives) what {_DENT}[^?]*" + _END, lambda m: f"max(0, depth_mm - {_mm(m)})"),
+    (rf"^subtract {_DENT} from (?:a |the )?\w+ of {_LENGTH}[:;,] *how many (?:mm|millimet(?:re|er)s?) (?:remain|are left)" + _END, lambda m: f"{_mm(m)} - depth_mm"),
+    (rf"^do the (?:microns|micromet(?:re|er)s) of {_DENT} (?:number|come to|amount to|exceed) (?P<way>over|more than|above|under|less than|below)? ?(?P<n>\d[\d.]*)" + _END,
+     lambda m: f"depth_mm * 1000 {'<' if re.match('under|less|below', m['way'] or '') else '>'} {m['n']}"),
+    # Forces, limits and bands.
+    (rf"^(?P<way>let go|ease off|loosen(?: up)?|relax|back off|squeeze more|tighten(?: up)?|grip harder) by (?P<n>\d+) ?(?:%|per ?cent)(?:,| and|:)* (?:then )?{_GRIP} would be what(?:, in \w+)?" + _END,
+     lambda m: f"force_n * {1 + (-1 if _LESS.search(m['way']) else 1) * float(m['n']) / 100:g}"),
+    (r"^how much (?:room|space|distance|headroom|margin) is (?:there )?(?:left )?between what you (?:apply|exert|press with) and what you must (?:never|not) exceed" + _END, "limit_n - force_n"),
+    (r"^of the (?:permitted|allowed) (?:maximum|most|force),? what share,?(?: in per ?cent)? (?:remains|is(?: still)?) (?:untouched|unused|free|left|available)" + _END, "100 * (limit_n - force_n) / limit_n, in %"),
+    (rf"^dividing {_GRIP} by the (?:force )?limit (?:gives|yields|makes) (?:which|what) (?:decimal )?(?:number|figure|value|ratio)" + _END, "force_n / limit_n"),
+    (r"^the (?P<q>ceiling|limit|force|grip|depth|area|mass)(?: on the (?:force|grip))?,? (?:put|expressed|stated|given|written|converted) in(?:to)? (?P<u>[\w²/-]+),? is (?:how much|what)" + _END, lambda m: f"what is the {_NAMES[m['q'].lower()]} in {m['u']}"),
+    (rf"^(?P<q>depth|force|grip|area|coverage|limit|mass|weight|x|y)[?:.,;]+ *{_UNITS}(?:,? (?:will do|would do|please|thanks|if you['’]?d? (?:please|be so kind|would|will)|is fine|only|is enough))+" + _END,
+     lambda m: f"what is the {_NAMES[m['q'].lower()]} in {m['u']}"),
+    (rf"^(?:{_IF} the limit (?:were|was|is|be|been set) {_FORCE} (?P<way>lower|higher|less|more)),? where would it (?:lie|be|stand|come to lie)" + _END, _moved("limit_n", "N")),
+    (rf"^(?:{_IF} (?:{_WHOEVER} )?(?P<way>raised|increased|lowered|reduced|decreased|cut|dropped) the limit by {_FORCE}),? how much (?:headroom|room|margin|space) would (?:{_GRIP}|you|we|i) (?:still )?have(?: left)?" + _END,
+     lambda m: f"{_moved('limit_n', 'N')(m)} - force_n"),
+    (rf"^(?:{_IF} the limit (?:were|was|is|be|been|been set) {_FORCE} (?P<way>lower|higher|less|more)),? would {_GRIP} (?:break|exceed|be over|be above|violate|breach|pass) it" + _END,
+     lambda m: f"force_n > {_moved('limit_n', 'N')(m)}"),
+    (rf"^(?:{_IF} )?(?:both )?ends of the (?:\w+ )?band (?:were )?(?:shifted|moved|pushed|raised|lowered) (?P<way>up|down|upwards?|downwards?) by {_FORCE},? where would (?:its|the) (?P<end>lower|upper|bottom|top) end (?:come to )?(?:lie|be|stand)" + _END,
+     lambda m: _moved("band_low_n" if m["end"].lower() in ("lower", "bottom") else "band_high_n", "N")(m)),
+    (rf"^taking {_GRIP} and subtracting the (?P<e>band['’]s (?P<end>lower|upper) end|limit) from it (?:yields|gives|makes|leaves) (?:how many newtons|what)[^?]*" + _END,
+     lambda m: f"force_n - {'limit_n' if m['end'] is None else 'band_low_n' if m['end'].lower() == 'lower' else 'band_high_n'}"),
+    (r"^(?:you['’]re|you are|we are|we['’]re) (?:holding|gripping|squeezing|pressing)(?: it)? too (?P<way>gently|softly|lightly|loosely|weakly|firmly|hard|tightly|strongly) for this (?:task|job|goal|contract),? (?:right|correct|true|no|aren['’]t you)" + _END,
+     lambda m: "force_n > band_high_n" if re.match("f|h|t|str", m["way"], re.I) else "force_n < band_low_n"),
+    (r"^(?:(?:is it true that|right or wrong[:;,]|true or false[:;,]|correct or not[:;,]) )?the (?P<end>lower|upper|bottom|top) end of the (?:\w+ )?band has been reached or (?:passed|exceeded|crossed)(?: by the (?:grip|force))?" + _END,
+     lambda m: f"force_n >= {'band_low_n' if m['end'].lower() in ('lower', 'bottom') else 'band_high_n'}"),
+    (rf"^is (?:the )?{_FORCE} (?:a force )?(?:that )?(?:this task['’]s |the |our )?(?:goal )?band (?:would|will|does|might) (?:accept|allow|permit|contain|include)" + _END, lambda m: f"band_low_n <= {_newtons(m)} <= band_high_n"),
+    (rf"^do(?:es)? (?P<way>more|less) than {_FORCE} lie between the (?:two )?ends of the (?:\w+ )?band" + _END, lambda m: f"band_high_n - band_low_n {'>' if m['way'].lower() == 'more' else '<'} {_newtons(m)}"),
+    (r"^in (?:the )?band,? or out(?: of (?:the )?(?:band|it))?" + _END, "'in band' if band_low_n <= force_n <= band_high_n else 'out of band'"),
+    (r"^(?:with respect to|as to|regarding|concerning) the (?:force )?limit,? are (?:you|we) (?P<a>safe|fine|okay|within|under) or (?P<b>in violation|over|beyond|above|in breach)" + _END, r"'\g<b>' if force_n > limit_n else '\g<a>'"),
+    # Masses.
+    (r"^(?P<n>\d+) (?:objects|things|fruits|berries|pieces|of these|of them)(?: exactly)? like this(?: one)?,? (?:[^,?]*, )?(?:would|will) (?:have|be|come to|make|weigh) what(?: mass)?(?: in \w+)?" + _END, lambda m: f"mass_g + {int(m['n']) - 1} * mass_g"),
+    (rf"^(?:cut|slice|split|halve) {_THING}(?: in(?:to)?)? (?:two|2)? ?(?:equal )?(?:halves|half|parts|pieces)?(?: in your mind)?[:;,.] *what mass(?: in grams)? (?:has|does|would) each(?: half| part| piece)?(?: have)?" + _END, "mass_g / 2"),
+    (rf"^how many grams is it away from (?P<n>\d+) ?(?:g|grams?){_SIGNLESS}" + _END, r"abs(mass_g - \g<n>)"),
+    (rf"^what (?:do you|does one) get by subtracting {_THING}(?:['’]s)? weight from {_GRIP},? (?:both )?in newtons" + _END, "force_n - 0.00980665 * mass_g, in N"),
+    (rf"^is {_THING}['’]s(?: own)? weight (?P<way>smaller|less|lower|larger|greater|higher|more) than (?:{_GRIP}|the force with which you (?:grip|hold|squeeze) it)" + _END,
+     lambda m: f"0.00980665 * mass_g {'<' if re.match('s|le|lo', m['way'], re.I) else '>'} force_n"),
+    (r"^(?:i['’]d like|give me|tell me|i want) the weight force of (?:the )?\w+,? in (?P<u>\w+)(?: rather than \w+)?" + _END, r"what is the weight of the object in \g<u>"),
+    (r"^should (?:this|it) go (?:in)?to the (?P<b>\w+) for (?:items|things|fruits?|objects|ones) (?P<one>under|below|over|above) (?P<n>\d+) ?(?:g|grams?) or (?:to |into )?the (?P=b) for (?:items|things|fruits?|objects|ones) (?P<two>under|below|over|above) (?P=n) ?(?:g|grams?)" + _END,
+     lambda m: f"'{m['one']}' if mass_g {'<' if m['one'].lower() in ('under', 'below') else '>'} {m['n']} else '{m['two']}'"),
+    # Places.
+    (r"^what (?:signed )?(?:sideways|lateral|horizontal) (?:shift|move|correction) in mm,? (?:(?:right|left) being (?:plus|positive|minus|negative),? )?would (?:bring|put|move) the contact(?: cent(?:re|er))? (?:back )?(?:over|to|onto) the (?:pad['’]s )?(?:midline|middle|cent(?:re|er))" + _END, "0 - x_mm"),
+    (rf"^{_IF} {_THING} (?:slid|slides?|slipped|slips|moved|moves|shifted|shifts|drifted) {_LENGTH} (?:further )?(?:to |toward |towards )?(?:the )?(?P<way>left|right|fingertips?|tip|palm|top|bottom|up|down)[,;:] *(?:what|at which|where|which) (?:would |y |x |will |its )*[^?]*" + _END, _shifted),
+    (r"^what(?:['’]s| is) the (?P<w>smaller|lesser|larger|greater|bigger) of the two (?:absolute )?(?:offsets|distances|shifts),? (?:horizontal and vertical|sideways and lengthways|x and y)" + _END, lambda m: f"{'min' if m['w'].lower() in ('smaller', 'lesser') else 'max'}(abs(x_mm), abs(y_mm))"),
+    (r"^going first sideways and then (?:straight )?(?:up or down|along the finger) from the (?:pad['’]s )?(?:middle|cent(?:re|er)) to the contact,? how many (?:mm|millimet(?:re|er)s) (?:would|do) (?:i|you|we|one) travel(?: in total)?" + _END, "abs(x_mm) + abs(y_mm)"),
+    (rf"^(?:measured|counted) from (?:a|the) point {_LENGTH} (?P<way>left|right|above|below) (?:of )?the (?:pad['’]s )?(?:middle|cent(?:re|er)),? how far (?:off|away) is the contact(?: cent(?:re|er))?(?: in mm)?" + _END,
+     lambda m: {"left": f"hypot(x_mm + {_mm(m)}, y_mm)", "right": f"hypot(x_mm - {_mm(m)}, y_mm)", "above": f"hypot(x_mm, y_mm - {_mm(m)})", "below": f"hypot(x_mm, y_mm + {_mm(m)})"}[m["way"].lower()]),
+    # Areas.
+    (r"^out of (?:every )?(?:a )?(?P<n>thousand|hundred|\d+) (?:points|spots|cells|dots|parts)(?: (?:on|of) the (?:pad|gel|sensor))?,? how many are (?:touched|covered|in contact)" + _END,
+     lambda m: f"area_percent * {float({'thousand': 1000, 'hundred': 100}.get(m['n'].lower(), m['n'])) / 100:g}"),
+    (rf"^how many (?:percentage points|per ?cent) (?:separate|lie between) {_AREA} (?:from|and) (?P<n>(?:one )?half|\d+ ?(?:%|per ?cent))(?: of the (?:pad|gel))?{_SIGNLESS}" + _END,
+     lambda m: f"abs(area_percent - {50 if 'half' in m['n'] else re.sub('[^0-9]', '', m['n'])})"),
+    (rf"^{_IF} {_AREA} (?:shrink|shrank|shrinks|shrunk|grow|grew|grows)(?: to)? (?P<n>half|a third|a quarter|twice|double) (?:its|the)(?: present| current)? size,? (?:what|how many) per ?cent(?:age)?(?: of the (?:pad|gel))? would it (?:still )?(?:take up|cover|fill|occupy)(?: of the (?:pad|gel))?" + _END,
+     lambda m: f"area_percent * {_SIZES[m['n'].lower()]:.6g}"),
+    # Shapes, and whether anything touches.
+    (r"^(?:apart from|besides|other than|except(?: for)?) (?:an? )?(?P<a>\w+) (?:and|or) (?:an? )?(?P<b>\w+),? is it (?:some|an)other (?:shape|form|thing)(?: that)?(?: you feel| you have)?" + _END, r"is it neither a \g<a> nor a \g<b>"),
+    (r"^(?:judge|check|assess|evaluate) (?:this|the following) (?:statement|sentence|claim)[:;,] *['\"“](?P<s>[^'\"”]+?)[.!]?['\"”]" + _END, r"is it true that \g<s>"),
+    (r"\bridges run across the surface(?: texture)?(?: of (?:the )?\w+)?\b", "the surface is ridged"),
+    (r"^(?P<a>full|laden|loaded) or (?P<b>empty),? (?:what(?:['’]s| is) the state of |is |are )?(?:your|the|our) (?:grip|hand|gripper|fingers)" + _END, r"say '\g<a>' if anything touches the pad, otherwise '\g<b>'"),
+    (r"^(?P<b>sub-?millimet(?:re|er)) or (?P<a>over a millimet(?:re|er)|more than a millimet(?:re|er)|over 1 (?:mm|millimet(?:re|er)))[:;,?][^?]*" + _END, r"'\g<a>' if depth_mm > 1 else '\g<b>'"),
+    (r"^would ['\"“](?P<w>[\w -]+)['\"”] be the (?:level|word|class|grade|label|category) (?:that )?you (?:assign|give|attach|put) to (?:this|the) (?P<s>press|depth|area|contact area|texture|surface|shape|position)(?:,? rather than any other)?" + _END, r"is the \g<s> \g<w>"),
+    (r"^which (?:size|area) (?:adjective|word|label|class) would you (?:attach|give|assign|apply) to (?:the )?(?:region|part|area|patch|contact)[^?]*" + _END, "which word for the contact area"),
+    (r"^(?P<q>(?:does|is) [^?]*?)\b(?P<w>left|right|top|bottom|middle|upper|lower)(?:[- ]hand)? (?P<k>column|row) of (?:your|the) (?:three[- ]by[- ]three|3 ?(?:by|x|×) ?3) grid" + _END, r"is it in the \g<w> \g<k>"),
+    # What touch can't know.
+    (r"\bhow much (?:per|a|for a|by the) (?:kilo|kilogram|kg|pound|punnet|piece|dozen)? ?do(?:es)? (?:they|it|he|she|you|one) (?:charge|cost|ask|pay|take)\b[^?]*", "what is its price"),
+    (r"^(?:which|what) cultivar\b[^?]*", "what variety is it"),
+    (r"\b(?:are|is) (?:there )?(?:any )?(?:pesticides?|pesticide residues?|fungicides?|chemicals)\b[^?]*", "is it organic"),
+    (r"^(?P<q>does|do) (?:its|the) (?:surface|skin|peel) (?:gleam|shine|glisten|glitter|sparkle|glow)\b[^?]*", "is it shiny"),
+    (r"^(?P<q>(?:does|do|is) [^?]*?)\bwhat (?:you|we|i) (?:may|can|are allowed to) (?:apply|exert|use) at (?:the very |the )?most" + _END, r"\g<q>the limit"),
+    (r"^does what (?:you|we|i) (?:apply|exert|press with) (?:amount|come) to ", "is the force "),
+)  # fmt: skip
+_COMPILED = tuple((re.compile(pattern, re.I), plain) for pattern, plain in _SUPPOSED)
+
+
+def supposed(text: str) -> str:
+    """A question as an expression, or in plainer words; the text itself where it has none here."""
+    for each in (text, in_digits(f"{text[:1].lower()}{text[1:]}")):
+        said = each
+        for pattern, plain in _COMPILED:
+            said = pattern.sub(plain, said)
+        if said != each:
+            return said
+    return text

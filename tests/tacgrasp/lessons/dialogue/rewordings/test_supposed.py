@@ -1,0 +1,87 @@
+"""What would be, and differences in other words, as expressions of the numbers felt."""
+
+import pytest
+
+from tacgrasp.lessons.dialogue.rewordings.supposed import supposed
+from tacgrasp.lessons.understanding import understood_by_grammar
+
+
+@pytest.mark.parametrize(
+    ("question", "query"),
+    [
+        ("If the limit were 1 N lower, where would it lie?", "calculate limit_n - 1 in N."),
+        ("If the limit were 300 mN higher, where would it lie?", "calculate limit_n + 0.3 in N."),
+        (
+            "Assuming somebody raised the limit by a quarter of a newton, how much headroom "
+            "would your present grip have?",
+            "calculate limit_n + 0.25 - force_n in N.",
+        ),
+        (
+            "Had the limit been set 1 N lower, would the current force break it?",
+            "calculate force_n > limit_n - 1.",
+        ),
+        (
+            "Let go by ten percent and the force would be what, in newtons?",
+            "calculate force_n * 0.9 in N.",
+        ),
+        (
+            "Tighten by 20 % and the force would be what?",
+            "calculate force_n * 1.2 in N.",
+        ),
+        (
+            "Imagine that the berry slips two millimetres toward the fingertips; at which y "
+            "would its contact then be centred?",
+            "calculate y_mm - 2 in mm.",
+        ),
+        (
+            "If the object slid 500 µm to the left, what would its x become?",
+            "calculate x_mm - 0.5 in mm.",
+        ),
+        (
+            "Measured from a point 2 mm above the pad's middle, how far off is the contact?",
+            "calculate hypot(x_mm, y_mm - 2) in mm.",
+        ),
+        (
+            "How much deeper or shallower than one millimetre is the dent, ignoring the sign?",
+            "calculate abs(depth_mm - 1) in mm.",
+        ),
+        (
+            "Should the contact patch shrink to half its present size, what percent of the pad "
+            "would it still take up?",
+            "calculate area_percent * 0.5 in %.",
+        ),
+        (
+            "Is one newton a force that this task's goal band would accept?",
+            "calculate band_low_n <= 1 <= band_high_n.",
+        ),
+        ("You're holding it too gently for this task, right?", "calculate force_n < band_low_n."),
+        ("You're holding it too firmly for this task, right?", "calculate force_n > band_high_n."),
+        ("Depth? Microns will do.", "amount depth µm."),
+        (
+            "What do you get by subtracting the object's weight from the grip force, both in "
+            "newtons?",
+            "calculate force_n - 0.00980665 * mass_g in N.",
+        ),
+        (
+            "Ten objects exactly like this one, put on a scale together, would have what mass?",
+            "calculate mass_g + 9 * mass_g in g.",
+        ),
+    ],
+)
+def test_a_supposition_is_an_expression_of_what_is_felt(question: str, query: str) -> None:
+    asked = understood_by_grammar(question)
+    assert asked is not None
+    assert asked.query == query
+
+
+@pytest.mark.parametrize(
+    "question",
+    [
+        "Is the force below the limit?",
+        "If it slips, what then?",
+        "The limit is 1 N. Is it over?",
+        "What is the force in newtons?",
+    ],
+)
+def test_other_questions_are_left_as_they_are(question: str) -> None:
+    assert supposed(question) == question
