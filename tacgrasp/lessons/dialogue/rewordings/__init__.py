@@ -4,5 +4,5 @@ Also those that are written as a program writes them, which are expressions alre
 
 Not here: what a question means (``tacgrasp.lessons.understanding``).
 
-May import: cltp.tactile, cltp.texts, tacgrasp.lessons.dialogue.
+May import: cltp.tactile, cltp.texts, policies.instructions.quantities, tacgrasp.lessons.dialogue.
 """
