@@ -40,6 +40,10 @@ def _section(name: str) -> re.Pattern[str]:
     return re.compile(rf"\b(?:{words.any_of(name)})")
 
 
+_FORBIDDEN_FORCE = NumberPattern(
+    rf"\b(?:more than|over|above|beyond|past|exceeding|(?:high|hard|firm|larg|great)er than|less than|under|below|soft(?:er)? than) (?:about |around )?{ONE_FORCE},? (?:is |are |would be )?(?:strictly |absolutely |totally )?(?:forbidden|banned|prohibited|out of the question|off limits|a no-go|taboo)\b"
+)
+"""'Over 1 N is forbidden' bounds a force."""
 _CLAUSE = re.compile(
     r"[.;:!?,()](?!\d)\s*|\s[-–—]+\s(?!\d)|—(?!\d)|…|\s(?=(?:but|because|since|whereas|while|so|hence|thus|therefore)\b)"
 )
@@ -160,7 +164,8 @@ def without_statements(text: str) -> Statements:
     spans = [(start, end) for start, end in _clauses(text) if _FORCE.search(text, start, end)]
     if past := _past_force(text):
         return Statements(rest=text, words=past, is_elsewhere=False)
-    if found := _NOT_MEANT.search(text) or _CONDITION.search(text):
+    told = _FORBIDDEN_FORCE.sub(lambda bound: " " * len(bound[0]), text)
+    if found := _NOT_MEANT.search(told) or _CONDITION.search(text):
         stated, after = _said_with(found, spans, text)
         if found.re is _CONDITION or not stated or not after or len(stated + after) < len(spans):
             return Statements(rest=text, words=found[0].strip(" ,.;:"), is_elsewhere=False)

@@ -280,7 +280,7 @@ _TOO_LITTLE = re.compile(
 
 _ANY_MORE = re.compile(
     r"\s*[.,;:!–—-]*\s*(?:(?:and|but) )?(?:(?:any(?:thing)?|even|just|an?|slightly|bit|little|touch|tad|hair|one|much) )+"
-    r"(?:(?P<more>more|harder|higher|firmer|tighter|stronger|above|beyond|over)|less|softer|lower|looser|gentler|under|below)\b(?: than (?:that|this|it)\b)?"
+    r"(?:(?P<more>more|harder|higher|firmer|tighter|stronger|above|beyond|over)|less|softer|lower|looser|gentler|under|below)\b(?: than (?:that|this|it)\b)?(?! (?:than )?(?:about |around )?\d)"
 )
 """'1 N, any more would crush it', '0.8 N, anything less lets it slip'."""
 _NO_FURTHER_AFTER = re.compile(rf"\s*[.;,!]+ (?:(?:and|but|so) )?(?:do )?{_NO_FURTHER}")
