@@ -98,6 +98,10 @@ _NOT_YOU = re.compile(r"\b(can|could|will|would|should) not (?=you|we)\b")
 _RATHER = re.compile(
     r"\b(?:rather|better|sooner|prefer\w*)\b(?: \w+)*? (?:too )?(?!little\b|much\b)(\w+) than (?:too |be |being )?(?!usual|normal|before|last|that|this|it\b|standard|the\b|you)\w+"
 )
+_RATHER_THIS = re.compile(
+    r"\b((?:rather|better|sooner|prefer\w*)\b[^.;,#]{0,40}?) (?:than|to|over) (?:an? |any )(?!usual|normal|standard)\w+ (?:one|grip|hold|touch|squeeze|grasp|hand)\b"
+)
+"""'I'd rather have a slack hold than a hard one.'"""
 _SETTING = re.compile(r"\b(force|grip|strength|pressure|power|squeeze) ?[:=] ?(?=[a-z])")
 """'Strength: low'."""
 _LESSER_EVIL = re.compile(
@@ -220,7 +224,8 @@ def _cues(sentence: str, asks: bool) -> Iterator[Cue]:
     sentence = _WOULD_NOT_MIND.sub("like ", sentence)
     sentence = _THAN_TOO.sub(lambda said: " gently " if said["little"] else " firmly ", sentence)
     sentence = _NEVER_TOO.sub(r"\1 ", sentence)
-    sentence = _RATHER.sub(r" \1 ", _LESSER_EVIL.sub(" not ", sentence))
+    sentence = _RATHER_THIS.sub(r"\1", _LESSER_EVIL.sub(" not ", sentence))
+    sentence = _RATHER.sub(r" \1 ", sentence)
     sentence = _too_for(_SETTING.sub(r"\1 ", sentence))
     sentence = _TOO_FORBIDDEN.sub("", _TOO.sub(r"\1\2", sentence))
     for part in CLAUSE.split(sentence):

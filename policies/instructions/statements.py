@@ -129,7 +129,7 @@ _LEADS_TO = re.compile(
     r"(?!is\b|this\b|berries\b|strawberries\b|seconds\b|times\b|fingers\b)[a-z]{2,}(?:ts|ks|ps|ds|ls|es|rs|ns|ms|ys|gs)\b)"
 )
 _OWN = re.compile(
-    r"^(?:the |a |an |my |our |your |this |that )?(?:[\w'-]+ ){0,2}?(?:force|grip|target|set-?point|goal|value|number|answer|band|range|window|limit|bound|minimum|maximum|min|max|end|ends|least|most|floor|ceiling|wish|ours|mine|yours|squeeze|pressure|grasp|setting|figure|hold|load|recipe|spec\w*|protocol|rule|law|norm|order|job|instruction|plan|budget|nominal|choice|kpi|f|f_\w+)(?: (?:is|are|of|at|to|now|today|here|for \w+(?: \w+)?|on \w+(?: \w+)?|should be|will be|must be|shall be|about|around|=))*\s*[:=]?\s*(?:between |from |at |about |around |exactly |precisely |a |only |just |to )*$"
+    r"^(?:the |a |an |my |our |your |this |that )?(?:[\w'-]+ ){0,2}?(?:force|grip|target|set-?point|goal|value|number|answer|band|range|window|limit|bound|minimum|maximum|min|max|end|ends|least|most|floor|ceiling|wish|ours|mine|yours|squeeze|pressure|grasp|setting|figure|hold|load|recipe|spec\w*|protocol|rule|law|norm|order|job|instruction|plan|budget|nominal|choice|kpi|f|f_\w+)(?: (?:is|are|of|at|to|now|today|here|of (?:the|your|our|my) (?:grip|force|squeeze|band|hold|pressure|gripper|fingers)|for \w+(?: \w+)?|on \w+(?: \w+)?|should be|will be|must be|shall be|about|around|=))*\s*[:=]?\s*(?:between |from |at |about |around |exactly |precisely |a |only |just |to )*$"
 )
 """What a clause is about that states the force to use."""
 _NAMED = re.compile(

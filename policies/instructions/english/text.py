@@ -96,12 +96,28 @@ _TYPED = (
         r"between \1 and \2",
     ),
     (r"\b(?:un)?till? s?he(?= )", "until it"),
+    (
+        r"\b(would|could|can|will) (?:the|this|that) (?:machine|robot|gripper|arm|device|hand)\b",
+        r"\1 you",
+    ),
+    (
+        r"\b(?:in )?(?:just |exactly )?the (?:same )?way (?:that )?(?:(?:you|one|i|we)(?:['’]d| would)?|an? \w+|people|mothers) (?:hold|carr(?:y|ie)|pick up|handle|treat|grip|touch|lift|cradle)s? ",
+        "like holding ",
+    ),
+    (r"\bcareful not to (?:press|squeeze|push|lean)(?: down)? (?:on|upon) it\b", "careful"),
+    (r"\blsl\b(?=[ :=]*\.?\d)", "at least"),
+    (r"\busl\b(?=[ :=]*\.?\d)", "at most"),
+    (r"\blesser than\b", "less than"),
     (r"(?<=[a-z])_(?=[a-z])", " "),
     (
         r"\b(for [a-z ]{1,30}?(?:the|our|my) (limit|maximum|max|cap|ceiling) is [^.;]{1,20}[.;,]+ (?:(?:and|but) )?for (?:this|the|our|my|these) [a-z ]{1,20}?)(?:it|that) is\b",
         r"\1the \2 is",
     ),
     (r"\bf[ _-]?(min|max)\b(?=[ :=]*\.?\d)", r"\1imum force"),
+    (
+        r"\b(?:stop|quit|cease|end) (?:clos|squeez|press|tighten|gripp)\w* before (?:the|your|my|our) (?:\w+ )?\w+ (?:shows?|reads?|sees?|says|registers?|reaches|hits|gets to) ",
+        "stay below ",
+    ),
     (
         r"\bstop (?:clos|squeez|press|tighten|gripp)\w* before (?:(?:you|it|we|the force) )?(?:reach(?:es)?|hits?|gets? to|pass(?:es)?|exceeds?) ",
         "stay below ",

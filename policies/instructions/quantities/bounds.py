@@ -127,6 +127,7 @@ _NO_MORE = NumberPattern(
     rf"(?:any(?:thing)? )?more (?:would|will|might|could|may) {_HARMED}(?: it)?|(?:beyond|above|past) (?:that|this|it) it (?:(?:will|would|may|might|could) )?{_HARMED}|"
     rf"or (?:else )?it (?:(?:gets|is|will be|would be|will get|will|would) )?{_HARMED}|"
     rf"is (?:all|as much as|the most) (?:that )?(?:it|this|the (?:\w+ )?(?:berry|fruit)) (?:(?:can|will|could) )?(?:takes?|stands?|bears?|tolerates?|endures?)(?: before it (?:is )?{_HARMED})?|"
+    r"is all (?:that )?(?:i|we|they|you)(?: (?:will|would|can|could|am|are|is|ever|shall))* (?:allow|permit|grant|give|tolerate|accept)(?:ed|s|ing)?\b(?: you)?(?: (?:on|for) (?:it|this|that|(?:the|this|that) \w+))?|"
     r"is as (?:far|high|hard|much|firm) as (?:you|it|we) (?:may|can|should|shall|must) (?:ever )?(?:go|press|squeeze|use|get)\b|"
     rf"is (?:(?:the point )?where|when) it {_HARMED}|\[\s*max(?:imum|\.)?\s*\])"
 )
@@ -176,11 +177,30 @@ def _as_bound(match: re.Match[str]) -> str:
     return f"{'at most' if match['most'] else 'at least'} {match['force']}"
 
 
+_WITH_LESS = NumberPattern(
+    rf"(?P<force>{NUMBER}\s*-?\s*(?:{UNIT})\b)(?P<more>[^.;:#\d]{{0,50}}?)[,;:.–—-]+ (?:but )?with (?P<side>less|more)(?: than that)?,? (?:it|that|this) (?:is|does|do|will|would|may|might|can|could) not\b[^.;#\d]*"
+)
+"""'With 1.6 N it is safe, with less it is not.'"""
+_NOT_BUT = NumberPattern(
+    rf"\b(?P<is>is|be|was|means|mean) not {NUMBER}\s*-?\s*(?:{UNIT})\b,? (?:but|it is|(?:and )?instead) (?:rather )?(?=(?:about |around )?{NUMBER}\s*-?\s*(?:{UNIT})\b)"
+)
+"""'The limit is not 1.9 N but 0.9 N.'"""
+_STRAY = NumberPattern(
+    rf"(?P<force>{NUMBER}\s*-?\s*(?:{UNIT})\b)[,;]? (?:and |but )?(?:you (?:may|can|might) |it (?:may|can) )?(?:stray|deviate|vary|wander|drift|differ|move|go)s? (?:from (?:it|that) )?(?:by )?(?:up to |at most )?(?P<by>{NUMBER}\s*-?\s*(?:{UNIT})\b) (?:in )?(?:either|both|any) (?:direction|way|side)s?(?:,? (?:but |and )?(?:no|not any) (?:further|more|farther))?"
+)
+"""'1 N, and you may stray by 0.5 N in either direction'."""
 _NO_LOOSER = NumberPattern(
     r"\b(?:do|must|should|may|can|will)? ?(?:not|never)(?: (?:ever|even|let it))* (?:loosen|relax|slacken|soften|weaken|ease(?: off| up)?|back off|let (?:go|up)|give way)(?: (?:it|off|up|the \w+|your \w+))* (?:past|beyond|further than) "
     rf"(?={NUMBER}\s*-?\s*(?:{UNIT})\b)"
 )
 """'Do not loosen past 0.6 N.'"""
+
+
+def _with_less(match: re.Match[str]) -> str:
+    bound = "least" if match["side"] == "less" else "most"
+    return f"at {bound} {match['force']}{match['more']}"
+
+
 _ENTRY = re.compile(
     r"(?:(?<=^)|(?<=[;,.?] ))(?:(?:object|fruit|berry|the|its) )?(?:weight|mass|width|size|diameter|length|temperature|colou?r|origin|variety|lot|batch|id|date|time) ?[:=?] ?(?:about )?[^;,.?]*(?:\.\d+[^;,.?]*)?(?:[;,.] ?|$)"
 )
@@ -198,6 +218,8 @@ def with_bounds_at_forces(text: str) -> str:
     text = _OF_FORCE.sub(r"\g<force>", _WORDED.sub("", text))
     text = _TOLD_BEFORE.sub(r"\g<told>. ", text)
     text = _CALLED_LATER.sub(_as_bound, _BOUND_LATER.sub(_as_bound, text))
+    text = _NOT_BUT.sub(r"\g<is> ", _STRAY.sub(r"\g<force> ± \g<by>", text))
+    text = _WITH_LESS.sub(_with_less, text)
     text = _NO_LOOSER.sub(" hold it with at least ", _NO_MORE.sub(r"\g<force> at most", text))
     return _AFTER_BOUND.sub(r"\g<bound> ", text)
 

@@ -24,7 +24,7 @@ _CHANGED_TO = re.compile(
 )
 
 _RAISED_TO = re.compile(
-    rf"(?<!may )(?<!can )(?<!could )(?<!might )(?<!not )(?<!never )\b(?:increas|rais|boost|bump|step|crank|turn|ramp|push|strengthen|tighten)(?:e|ing)?\b(?: (?!from\b|not\b|any\w*\b)[a-z]+){{0,5}}? from {NUMBER}\s*(?:(?:{UNIT})\b)? (?:up )?to (?P<force>{NUMBER}\s*(?:{UNIT})\b)"
+    rf"(?<!may )(?<!can )(?<!could )(?<!might )(?<!not )(?<!never )\b(?:increas|rais|boost|bump|step|crank|turn|ramp|push|strengthen|tighten|chang|adjust|correct|switch|updat|modify|revis)(?:e|ing)?\b(?: (?!from\b|not\b|any\w*\b)[a-z]+){{0,5}}? from {NUMBER}\s*(?:(?:{UNIT})\b)? (?:up )?to (?P<force>{NUMBER}\s*(?:{UNIT})\b)"
 )
 
 
@@ -133,6 +133,19 @@ _MOVED_TO = re.compile(
     rf"\b(?!up\b)(?:{_RAISE}|{_LOWER}|{_MOVE})(?: {_IT}| the (?:force|grip|squeeze|pressure))?(?: (?:up|down|back|off|further))* to {_ABOUT}(?P<to>{_FORCE})"
 )
 """'1 N, lower it to 0.8 N'."""
+_BOUND_NAME = r"(?:(?:(?P<low>lower )?(?:upper )?(?:limit|bound))|(?P<top>cap|ceiling|max(?:imum)?)|(?P<floor>floor|min(?:imum)?))"
+_BOUND_CHANGED = re.compile(
+    rf"\b{_BOUND_NAME}(?: (?!not\b)[a-z]+){{0,3}}? ?(?:was|is|used to be|had been|stood at|stands at|:|=|of) (?P<one>{_FORCE})[^\d]{{0,40}}?\b(?:(?P<up>{_RAISE})|{_LOWER}) (?:it|that|this|the (?:(?:lower |upper )?(?:limit|bound)|cap|ceiling|max(?:imum)?|floor|min(?:imum)?)) by {_ABOUT}(?P<by>{_AMOUNT})"
+)
+"""'The cap was 1.7 N, lower the cap by 0.3 N.'"""
+_MARGIN = re.compile(
+    rf"\b(?:an? |the )?(?:(?:safety|safe|good|comfortable|clear) )?(?:distance|margin|clearance|buffer|gap|reserve) of {_ABOUT}(?P<by>{_FORCE})(?: (?:from|to|below|under|beneath)(?: {_IT}| there)?)?(?! (?:the|our|my|between|\d))"
+)
+"""'It bruised at 0.8 N, I want a safety distance of 0.2 N from that.'"""
+_THAT_OR = re.compile(
+    rf"\b(?:with|at|use|using|apply|to) {_THAT} or (?:(?:something|anything|even|slightly|a (?:bit|little|touch)) )?(?:(?P<more>more|greater|higher|above|larger|stronger|firmer|harder)|less|lower|below|smaller|softer|gentler|weaker)\b"
+)
+"""'I measured 1.8 N. Squeeze with that or something greater.'"""
 _STEMS = {"halv": 0.5, "doubl": 2.0, "tripl": 3.0, "trebl": 3.0, "quadrupl": 4.0}
 
 _DENIED = re.compile(
@@ -162,6 +175,11 @@ def worked_out(text: str) -> str:
     text = _OF_THE_WAY.sub(_part_of_the_way, text)
     for inner, sign in _INNER:
         text = inner.sub(partial(_changed_within, sign=sign), text)
+    text = _BOUND_CHANGED.sub(_changed_bound, text)
+    for pattern in (_MARGIN, _THAT_OR):
+        for match in reversed(list(pattern.finditer(text))):
+            if one := _antecedent(text, match.start()):
+                text = f"{text[: match.start()]}{_bound_by(match, one)}{text[match.end() :]}"
     at = 0
     while found := _next(text, at):
         match, begin, one = found
@@ -201,6 +219,18 @@ def change_of_range(text: str) -> str:
 
 def _changed_within(match: re.Match[str], sign: int) -> str:
     return _changed(match["one"], match["by"], sign)
+
+
+def _changed_bound(match: re.Match[str]) -> str:
+    kind = "least" if match["low"] or match["floor"] else "most"
+    return f"at {kind} {_changed(match['one'], match['by'], 1 if match['up'] else -1)}"
+
+
+def _bound_by(match: re.Match[str], one: str) -> str:
+    """A bound at a force that is named before, or below it."""
+    if match.re is _MARGIN:
+        return f"at most {_changed(one, match['by'], -1)}"
+    return f"at {'least' if match['more'] else 'most'} {one}"
 
 
 def _between(match: re.Match[str], reckon: Callable[[float, float], float]) -> str:

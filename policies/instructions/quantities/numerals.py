@@ -90,6 +90,17 @@ _SHARED_SCALE = re.compile(
 )
 """'Two to three hundred': the scale counts for both."""
 
+_TEENS = "|".join(word for word, value in _SMALL.items() if 10 <= value < 20)
+_HUNDREDS = re.compile(
+    rf"(?<!and )(?<!point )\b(?P<h>{_UNDER_TEN})[ -](?P<t>{_TEENS}|(?:{'|'.join(_TENS)})(?:[ -](?:{_UNDER_TEN}))?)(?= ?(?:-|–|\b(?:to|and|or|up to)\b)?[a-z -]{{0,40}}?\b(?:milli|mn\b))"
+)
+"""'Six fifty millinewtons' are 650."""
+_DIGIT_WORD = rf"(?:zero|{_UNDER_TEN})"
+_DIGIT_BY_DIGIT = re.compile(
+    rf"(?<!point )(?<!dot )\b{_DIGIT_WORD}(?:[ -]{_DIGIT_WORD}){{2,3}}(?=[ -](?:milli|mn\b|newt|n\b|gram|gf\b))"
+)
+"""'Six five zero millinewtons', as one says it by radio."""
+
 _TWICE = NumberPattern(
     rf"\b(?P<words>{_WORD}(?:(?:[ -]+| and | point ){_WORD})*) \((?P<digits>\d+(?:\.\d+)?)\)(?= ?[a-z])|"
     rf"(?<![\d.,])(?P<first>\d+(?:\.\d+)?) \((?P<then>{_WORD}(?:(?:[ -]+| and | point ){_WORD})*)\)(?= ?[a-z])"
@@ -107,6 +118,7 @@ def _once(match: re.Match[str]) -> str:
 def in_digits(text: str) -> str:
     """Write the numbers of a plain text in digits; ordinals stay as they are."""
     text = _TWICE.sub(_once, re.sub(r"(\d)⁄(\d)", r"\1/\2", text))
+    text = _DIGIT_BY_DIGIT.sub(_by_digit, _HUNDREDS.sub(r"\g<h> hundred \g<t>", text))
     text = _SHARED_SCALE.sub(_scale_of_both, text)
     text = re.sub(r"\b(\d+) (hundred|thousand|million)\b", _scaled, text)
     text = re.sub(r"\bhundred and (?=(?:\w+[ -])?\w+ hundred\b)", "hundred  and  ", text)
@@ -153,6 +165,10 @@ def in_digits(text: str) -> str:
         "1 ",
         text,
     )
+
+
+def _by_digit(match: re.Match[str]) -> str:
+    return "".join(str(_SMALL[word]) for word in re.split(r"[ -]", match[0]))
 
 
 def _scale_of_both(match: re.Match[str]) -> str:

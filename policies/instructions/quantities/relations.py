@@ -198,6 +198,10 @@ _WHEN_ABOVE = re.compile(
     r"|\b(?:stop|abort|halt|trip|quit|fault|alarm|e-?stop|back off|ease off|shut (?:down|off)|cut (?:out|off))(?:s|p?p?ing|p?ed)?(?: (?!at\b)\w+){0,2} $"
 )
 """'Whenever it is above 1 N, ease off'."""
+_WHEN_BELOW = re.compile(
+    r"(?<!only )(?<!just )\b(?:if|when|whenever|once|as soon as|the moment|in case|should) (?:it|(?:the|my|our|your|its) (?:\w+ )?\w+)(?: ever| once| again| then)* (?:reads?|shows?|falls?|drops?|goes|go|gets?|sinks?|dips?|comes?|feels?|measures?|sees|is|reports?)(?: ever| anything| back| down| to| a force| values?)* $"
+)
+"""'When it reads below': a warning, whatever stands behind it."""
 _WISHED = re.compile(
     r"\b(?:prefer|appreciate|like|love|wish|happ\w+|glad|nicer?|great|good|best|better|ideal|grateful|thankful|pleased|safer|safest|kind|lovely|fine|ok|okay|cool|perfect|helpful|wonderful|sure)(?: it| for me| of you)? if\b"
 )
@@ -375,7 +379,8 @@ def relation(left: str, right: str) -> tuple[Kind, int, int]:
             is_denied = is_denied or bool(harm.match(right)) or bool(stated.search(left))
             if pattern is _BELOW:
                 is_lost = (
-                    _LOST_BELOW.search(left)
+                    (_WHEN_BELOW.search(said[: match.start()]) and not beside)
+                    or _LOST_BELOW.search(left)
                     or _IMPOSSIBLE_BELOW.search(left)
                     or (_STATED_BELOW.search(left) and _NOBODY_HOLDS.match(right))
                 )
