@@ -92,7 +92,7 @@ _SHARED_SCALE = re.compile(
 
 _TEENS = "|".join(word for word, value in _SMALL.items() if 10 <= value < 20)
 _HUNDREDS = re.compile(
-    rf"(?<!and )(?<!point )\b(?P<h>{_UNDER_TEN})[ -](?P<t>{_TEENS}|(?:{'|'.join(_TENS)})(?:[ -](?:{_UNDER_TEN}))?)(?= ?(?:-|–|\b(?:to|and|or|up to)\b)?[a-z -]{{0,40}}?\b(?:milli|mn\b))"
+    rf"(?<!and )(?<!point )\b(?P<h>{_UNDER_TEN})[ -](?P<t>{_TEENS}|(?:{'|'.join(_TENS)})(?:[ -](?:{_UNDER_TEN}))?)\b(?= ?(?:-|–|\b(?:to|and|or|up to)\b)?[a-z -]{{0,40}}?\b(?:milli|mn\b))"
 )
 """'Six fifty millinewtons' are 650."""
 _DIGIT_WORD = rf"(?:zero|{_UNDER_TEN})"

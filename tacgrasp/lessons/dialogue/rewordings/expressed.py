@@ -28,6 +28,8 @@ _SAID_UNIT = re.compile(
 _UNIT_BEHIND = re.compile(
     r"[,:]? *(?:\(|\[)?(?:in )?(?<![\w.])(?P<unit>[a-zµ²A-Z%]+)(?:\)|\])?[?.! ]*$"
 )
+_OTHER_DIMENSION = re.compile(r"\*\*|/ *\(*[a-z]")
+"""A power, or a quotient of names: in another unit than these."""
 _SPELLED = {"um": "µm", "newton": "N", "newtons": "N", "microns": "µm", "micron": "µm"}
 _LEADS = re.compile(
     r"^(?:(?:what(?:['’]s| is)(?: the value of)?|is|does|return|print|assert|echo|eval(?:uate)?|"
@@ -96,7 +98,8 @@ def _bare(question: str) -> tuple[str, str]:
 def _in_unit(expression: Expression, unit: str) -> Calculated | None:
     """A number in the unit that is said, or in that of its names where they share one."""
     units_of = {unit_of_name(name) for name in expression.names}
-    own = next(iter(units_of)) if len(units_of) == 1 and not expression.divided else ""
+    is_plain = not expression.divided and _OTHER_DIMENSION.search(expression.text) is None
+    own = next(iter(units_of)) if len(units_of) == 1 and is_plain else ""
     factor = expression.power_of_ten
     if unit == "%" and expression.is_percentage:
         return Calculated(truth=expression.text, unit=unit)

@@ -57,6 +57,27 @@ from tacgrasp.lessons.understanding import understood_by_grammar
         ("You're holding it too gently for this task, right?", "calculate force_n < band_low_n."),
         ("You're holding it too firmly for this task, right?", "calculate force_n > band_high_n."),
         ("Depth? Microns will do.", "amount depth µm."),
+        ("Say mass. Grams. Over.", "amount mass g."),
+        (
+            "Is it lighter or heavier than a twenty gram bar of chocolate?",
+            "calculate 'lighter' if mass_g < 20 else 'heavier'.",
+        ),
+        (
+            "Where does the force stand within the band on a 0 to 1 scale?",
+            "calculate (force_n - band_low_n) / (band_high_n - band_low_n) in 1.",
+        ),
+        (
+            "Feather-light or firm - say feather-light if it's under half a newton",
+            "calculate 'feather-light' if force_n < 0.5 else 'firm'.",
+        ),
+        (
+            "Does the grip force exceed the object's weight force?",
+            "calculate force_n > 0.00980665 * mass_g.",
+        ),
+        (
+            "If I add half a newton, will it still be below the limit?",
+            "calculate force_n + 0.5 < limit_n.",
+        ),
         (
             "What do you get by subtracting the object's weight from the grip force, both in "
             "newtons?",
@@ -80,6 +101,7 @@ def test_a_supposition_is_an_expression_of_what_is_felt(question: str, query: st
         "Is the force below the limit?",
         "If it slips, what then?",
         "The limit is 1 N. Is it over?",
+        "To re-centre it, must the contact shift leftward or rightward?",
         "What is the force in newtons?",
     ],
 )
