@@ -97,9 +97,10 @@ _HUNDREDS = re.compile(
 """'Six fifty millinewtons' are 650."""
 _DIGIT_WORD = rf"(?:zero|{_UNDER_TEN})"
 _DIGIT_BY_DIGIT = re.compile(
-    rf"(?<!point )(?<!dot )\b{_DIGIT_WORD}(?:[ -]{_DIGIT_WORD}){{2,3}}(?=[ -](?:milli|mn\b|newt|n\b|gram|gf\b))"
+    rf"\b{_DIGIT_WORD}(?:[ -]{_DIGIT_WORD}){{2,3}}(?=[ -](?:milli|mn\b|newt|n\b|gram|gf\b))"
 )
 """'Six five zero millinewtons', as one says it by radio."""
+_DECIMALS = re.compile(rf"\b(?:point|dot|comma|decimal)(?:[ -](?:{_DIGIT_WORD}|oh))*[ -]$")
 
 _TWICE = NumberPattern(
     rf"\b(?P<words>{_WORD}(?:(?:[ -]+| and | point ){_WORD})*) \((?P<digits>\d+(?:\.\d+)?)\)(?= ?[a-z])|"
@@ -168,6 +169,8 @@ def in_digits(text: str) -> str:
 
 
 def _by_digit(match: re.Match[str]) -> str:
+    if _DECIMALS.search(match.string[: match.start()]):
+        return match[0]  # 'zero point zero six'
     return "".join(str(_SMALL[word]) for word in re.split(r"[ -]", match[0]))
 
 
