@@ -26,14 +26,21 @@ _DESTROY_VERB = re.compile(rf"\b{words.any_of('destroy')}(?:n?ing|t?ing|p?ing)?\
 _A_BIT = re.compile(
     r"squish (?:it|this|that|the \w+) (?:(?:just|only|like|maybe|ever so) )*(?:(?:an? )?(?:\w+ )?(?:bit|little|touch|tad|smidge\w*)\b(?! (?:flat|more|harder))|gently|softly|lightly|slightly|carefully)"
 )
-_THAT = r"(?:it|this|that|them|the (?:\w+ )?\w+)"
+_THAT = (
+    r"(?:it|this|that|them|him|her|me|us|someone|somebody|(?:the|my|your|his|their) (?:\w+ )?\w+)"
+)
+_BROKEN = r"(?:bursts?|breaks?|pops?|cracks?|splits?|leaks?|bleeds?|explodes?|squirts?|collapses|gives way|bruises)"
 _DESTROY_IT = (
-    r"(?:(?:crush|squash|smash|mash|burst|bruise|destroy|flatten|pulp|mangle|wreck|ruin|split|puncture|pierce|break|crack|damage|hurt|harm) "
+    rf"(?:(?:squeeze|press|grip|pinch|clamp|hold|squash) (?:{_THAT} )?(?:as hard as you can )?until (?:it|the \w+|that|this) {_BROKEN}|"
+    r"make (?:some |me |a |us )*(?:strawberry )?(?:juice|jam|pulp|smoothie|puree|sauce|mush)(?: of (?:it|this|that))?|"
+    rf"(?:drop|throw|toss|hurl|fling|chuck) {_THAT} (?:on|onto|at|to|into|down|in|out|away|against)(?: (?:the|my|a|your) \w+| him| her| them| me)?|"
+    rf"(?:cut|slice|chop|tear|rip|split) (?!the (?:\w+ )?(?:force|grip|pressure|squeeze|strength)\b){_THAT} (?:in|into) (?:half|halves|two|2|0\.5|pieces|bits|slices)|"
+    r"(?:crush|squash|smash|mash|burst|bruise|destroy|flatten|pulp|mangle|wreck|ruin|split|puncture|pierce|break|crack|damage|hurt|harm) "
     rf"{_THAT}|squish {_THAT} flat|turn {_THAT} (?:in)?to (?:jam|mush|pulp|juice|puree|sauce|paste))"
 )
 _DESTROY_WITH = re.compile(
     r"(?:(?:please|now|just|robot|then|and|so|ok(?:ay)?|go ahead and|i (?:want|need|order|would like) you to|(?:can|could|will|would) you) )*"
-    rf"(?P<order>{_DESTROY_IT}(?: flat| up| completely)?) (?:with|at|using|by applying) "
+    rf"(?P<order>{_DESTROY_IT}(?: flat| up| completely| gently| softly| slowly| now| please)*)(?:,? (?:with|at|using|by applying) |[.! ]*$)"
 )
 _THEN_DESTROY = re.compile(
     rf"(?P<first>(?:[^.;!?]|\.(?=\d))*?)(?: |, ?)(?:(?:and )?then|and(?: please| now)?) (?P<order>{_DESTROY_IT})(?=\s*(?:$|[.,;!?]|(?:flat|up|completely|please|now)\b))"
@@ -238,11 +245,12 @@ def _ensures_harm(whole: str) -> str:
 
 def _destroys_with(whole: str) -> str:
     """An order to destroy with so much force, which else is read as what did harm; '' for none."""
-    for clause in _clauses(whole):
-        order = _DESTROY_WITH.match(clause)
+    parts = [sentence for sentence, _ in sentences(whole)]
+    for part in (*_clauses(whole), *parts):
+        order = _DESTROY_WITH.match(part)
         if order and not _THREAT.search(whole):
             return order["order"]
-    for sentence, _ in sentences(whole):
+    for sentence in parts:
         then = _THEN_DESTROY.match(sentence)
         if then and _ORDER.match(then["first"]) and not _WARNS.search(then["first"]):
             return then["order"]

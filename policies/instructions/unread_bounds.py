@@ -24,7 +24,7 @@ _LOWER_ALONE = (
     r"(?:not|never) (?:\w+ ){0,3}(?:weaker|looser|feebler)\b|(?:rejects?|refuses?) (?:\w+ ){0,3}# \. (?:see to it|make sure)"
 )
 _LOWER = re.compile(
-    rf"\b(?:{_LOWER_ALONE}|min(?:imum|imal)?\b|floor\b|lower (?:limit|bound|end)|lowest|(?:weaker|looser|softer|less|lower) than (?:that|this|it)\b|(?:not|never) (?:\w+ ){{0,3}}(?:under|below)\b)"
+    rf"\b(?:{_LOWER_ALONE}|min(?:imum|imal)?\b|(?<!on the )(?<!to the )(?<!onto the )(?<!off the )(?<!on )floor\b|lower (?:limit|bound|end)|lowest|(?:weaker|looser|softer|less|lower) than (?:that|this|it)\b|(?:not|never) (?:\w+ ){{0,3}}(?:under|below)\b)"
 )
 _LOWER_BESIDE_MOST = re.compile(rf"\b(?:{_LOWER_ALONE}|(?:get|be) that (?:loose|weak|soft)\b)")
 _MORE_THAN = re.compile(
