@@ -193,6 +193,14 @@ _SUPPOSED: tuple[tuple[str, _Plain], ...] = (
     (r"^have (?:you|we) left the (?:allowed|permitted|goal|wanted) (?:force )?(?:range|band|window)" + _END, "not (band_low_n <= force_n <= band_high_n)"),
     (r"^compared (?:with|to) the (?:maximum|limit),? (?:would you say )?(?:is )?the force (?:is )?(?P<a>under|below) or (?P<b>over|above)(?: it)?" + _END, r"'\g<a>' if force_n <= limit_n else '\g<b>'"),
     (r"^say ['\"“](?P<a>[\w -]+)['\"”] if the contact is in the middle (?:cell|field|zone),? otherwise (?:say )?['\"“](?P<b>[\w -]+)['\"”]" + _END, r"say '\g<a>' if it is centered, otherwise '\g<b>'"),
+    # Statements that somebody makes.
+    (r"^is it not so that ", "is it true that "),
+    (r"^(?:am i|was i|are we) wrong (?:that|in (?:thinking|saying|believing) that|if i (?:say|think|believe) that) ", "is it false that "),
+    (r"^would you (?:disagree|object|contradict me) if i (?:said|claimed|told you|stated) (?:that )?", "is it false that "),
+    (r"^(?:someone|somebody|my \w+|he|she|they|people|the \w+|a \w+) (?:claims?|says?|thinks?|believes?|told me|insists?) that (?P<s>[^.?;]+)[.;] *is (?:that|it|this) (?P<w>so|true|right|correct|false|wrong|untrue|a lie)" + _END,
+     lambda m: f"is it {'true' if m['w'].lower() in ('so', 'true', 'right', 'correct') else 'false'} that {m['s']}"),
+    (r"^is (?:the|this) (?:statement|claim|sentence)[:,]? ['\"“](?P<s>[^'\"”]+?)[.]?['\"”],? (?P<w>true|right|correct|accurate|false|wrong|untrue|incorrect|inaccurate)" + _END,
+     lambda m: f"is it {'true' if m['w'].lower() in ('true', 'right', 'correct', 'accurate') else 'false'} that {m['s']}"),
     # Masses, sizes and places in other words.
     (r"^is it (?P<a>lighter|heavier) or (?P<b>lighter|heavier) than an? (?P<n>\d+)[- ](?:gram|g) [\w ]+" + _END, lambda m: f"'{m['a']}' if mass_g {'<' if m['a'].lower() == 'lighter' else '>'} {m['n']} else '{m['b']}'"),
     (r"^[^?]*['\"“](?P<a>\w+)['\"”] (?:bin|box|tray|pile|class) \((?:up to|at most) (?P<n>\d+) ?(?:g|grams)\) or (?:in |into )?(?:the )?['\"“](?P<b>\w+)['\"”](?: (?:bin|box|tray|pile|class))?" + _END, r"'\g<a>' if mass_g <= \g<n> else '\g<b>'"),

@@ -57,6 +57,13 @@ from tacgrasp.lessons.understanding import understood_by_grammar
         ("You're holding it too gently for this task, right?", "calculate force_n < band_low_n."),
         ("You're holding it too firmly for this task, right?", "calculate force_n > band_high_n."),
         ("Depth? Microns will do.", "amount depth µm."),
+        ("Is it not so that the force is above 1 N?", "check force > #1 N."),
+        ("Am I wrong that the surface is smooth?", "check not texture smooth."),
+        ("Would you disagree if I said that the press is deep?", "check not depth deep."),
+        (
+            "Someone claims that the force is above 1 N. Is that false?",
+            "check not force > #1 N.",
+        ),
         ("Say mass. Grams. Over.", "amount mass g."),
         (
             "Is it lighter or heavier than a twenty gram bar of chocolate?",
