@@ -105,6 +105,14 @@ _TYPED = (
         "like holding ",
     ),
     (r"\bcareful not to (?:press|squeeze|push|lean)(?: down)? (?:on|upon) it\b", "careful"),
+    (
+        r"\b(so|and|therefore|hence) (hold|keep|stay|remain|be|grip|stop)( it| them| the \w+)? (?:somewhere |anywhere |safely |well |right )?in[ -]?between(?: (?:the two|these|those|them|both))?(?=\s*(?:$|[.,;!]| please))",
+        r"\1 \2\3 there",
+    ),
+    (
+        r"(\b(?:over|above|beyond|past|more than|under|below|less than) \.?\d[^.;?!]{2,60}?),? so (?:please )?(?:do not|don['’]t|never)(?: do (?:it|that|so))?(?=\s*(?:$|[.!]))",
+        r"\1",
+    ),
     (r"\blsl\b(?=[ :=]*\.?\d)", "at least"),
     (r"\busl\b(?=[ :=]*\.?\d)", "at most"),
     (r"\blesser than\b", "less than"),

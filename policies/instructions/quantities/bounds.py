@@ -10,7 +10,7 @@ import re
 
 from policies.instructions.english.denials import FORBIDDEN_AFTER, NO_CASE
 from policies.instructions.english.number_pattern import NumberPattern
-from policies.instructions.quantities.force_units import LOOSE, NUMBER, UNIT, number
+from policies.instructions.quantities.force_units import LOOSE, NUMBER, UNIT, in_newtons, number
 
 _ONE = rf"(?P<one>{NUMBER}(?:\s*-?\s*(?:{UNIT}|{LOOSE})\b)?(?: of (?:grip )?force\b)?)"
 _NOT = rf"(?:not|never|no longer|{NO_CASE})"
@@ -224,11 +224,24 @@ def with_bounds_at_forces(text: str) -> str:
     return _AFTER_BOUND.sub(r"\g<bound> ", text)
 
 
+_LOWER_UPPER = NumberPattern(
+    rf"\b(?:lower|low|bottom)(?: end| limit| bound)?[:=]? (?P<low>{NUMBER})\s*(?P<u>(?:{UNIT})\b)?,? (?:and )?(?:upper|high|top)(?: end| limit| bound)?[:=]? (?P<high>{NUMBER})\s*(?P<v>(?:{UNIT})\b)"
+)
+"""'Lower 0.6 N, upper 1.8 N'."""
+
+
+def _both_ends(match: re.Match[str]) -> str:
+    low = in_newtons(match["low"], match["u"] or match["v"])
+    if low > in_newtons(match["high"], match["v"]):
+        return match[0]
+    return f"between {match['low']} {match['u'] or match['v']} and {match['high']} {match['v']}"
+
+
 def with_plain_bounds(text: str) -> str:
     """Write each bound of a plain text, its numbers in digits, with its words before its force."""
     text = _NOT_MORE.sub(r"\1 than ", text)
     text = _FROM.sub(r"\1 ", _THAN.sub(r"\1 than", text))
-    text = _SLIGHTLY_MORE.sub(_close_above, text)
+    text = _LOWER_UPPER.sub(_both_ends, _SLIGHTLY_MORE.sub(_close_above, text))
     for pattern, plainly in _PLAIN:
         text = pattern.sub(plainly, text)
     return text

@@ -41,6 +41,7 @@ _LEAST = re.compile(
     r"(?:\b(?:more|greater|higher|larger) than or equal to|\b(?:at|over|above) or (?:over|above|at)|"
     r"\bat (?:the )?(?:very |absolute )?least|\batleast|\bmin(?:\.|imum|imal(?:ly)?)?(?: (?!not\b|never\b)\w+){0,3}?(?: of| is| at|:| =|=)?|"
     r"\b(?:lower|bottom) (?:\w+ )?(?:limit|bound|end)(?: \w+){0,4}?(?: of| is| at|:| =|=)?|\bfloor(?: \w+){0,3}?(?: of| is| at|:| =|=)?|"
+    r"\b(?:lowest|smallest|least|weakest|softest|minimum) (?:force|grip|squeeze|hold)(?: (?:(?:that )?(?:i|we|you|it)|that|the \w+)\b[^.;#\d]*?)? (?:is|=|:)|"
     r">=|≥|=>|\bno less than|\bno (?:weaker|less|softer|lower|gentler|looser|smaller)(?: an?)? (?:grip|squeeze|hold|force|clamp|pressure|grasp)(?: strength)? than|\bat (?:the )?(?:very )?least (?:with|at|use|apply)|\b(?:it|berry|fruit|this|that|one|strawberry|thing) (?:really |always )?(?:needs|requires|takes)|\bf[_ ]?min\s*[:=]?(?: is| of)?|\bstarting (?:at|from)|\bbottom out at|"
     r"\b(?:lower|low|bottom)[ -](?:alarm|trip|warning|threshold|cut-?off|guard)s?(?: (?:threshold|level|limit|point|value))?(?: of| is| at|:| =|=)?)"
     rf"{_ABOUT}?\s*$"
@@ -278,7 +279,7 @@ _TOO_MUCH = re.compile(
     rf"[^.;#(]{{0,30}}\b(?:(?<!not )(?<!never )too (?:much|far|hard)|out of|no go|not ok\w*|pointless|useless|no (?:use|sense|point|need|good)|wast\w+|{_UNWANTED}|(?:you|we|it) (?:must|may|should|shall|can|are to) not|(?:not|never) (?:be )?(?:needed|necessary|required|called for|wise|good|wanted|used)|jam\b|juice\b|smoothies?\b|pur[eé]e|pulp\b|mush\b|sauce\b|{_HARMS})"
 )
 _TOO_LITTLE = re.compile(
-    rf"(?:(?!\b(?:not|never|no|without)\b)[^.;#(]){{0,20}}\b(?:will not do|not (?:allowed|acceptable|permitted|ok\w*|on)|forbidden|banned|not (?:enough|sufficient)|too little|insufficient|useless|will not hold|no good|not acceptable|{_SLIPS}\w*(?!\w){NO_OTHER_FORCE}|let it|(?:gets?|is|becomes?|feels) (?:loose|shaky|unstable|slippery))"
+    rf"(?:(?!\b(?:not|never|no|without)\b)[^.;#(]){{0,20}}\b(?:will not do|not (?:allowed|acceptable|permitted|ok\w*|on)|forbidden|banned|not (?:enough|sufficient)|too (?:little|weak|soft|loose|gentle|light|low|feeble)|insufficient|useless|will not hold|no good|not acceptable|{_SLIPS}\w*(?!\w){NO_OTHER_FORCE}|let it|(?:gets?|is|becomes?|feels) (?:loose|shaky|unstable|slippery))"
 )
 
 
