@@ -139,7 +139,7 @@ _BOUND_CHANGED = re.compile(
 )
 """'The cap was 1.7 N, lower the cap by 0.3 N.'"""
 _MARGIN = re.compile(
-    rf"\b(?:an? |the )?(?:(?:safety|safe|good|comfortable|clear) )?(?:distance|margin|clearance|buffer|gap|reserve) of {_ABOUT}(?P<by>{_FORCE})(?: (?:from|to|below|under|beneath)(?: {_IT}| there)?)?(?! (?:the|our|my|between|\d))"
+    rf"\b(?:an? |the )?(?:(?:safety|safe|good|comfortable|clear) )?(?:distance|margin|clearance|buffer|gap|reserve) of {_ABOUT}(?P<by>{_FORCE}) (?:from|to|below|under|beneath) (?:{_IT}|there)(?! (?:the|our|my|between|\d))"
 )
 """'It bruised at 0.8 N, I want a safety distance of 0.2 N from that.'"""
 _THAT_OR = re.compile(

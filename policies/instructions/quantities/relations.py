@@ -203,6 +203,10 @@ _WHEN_BELOW = re.compile(
     r"(?<!only )(?<!just )\b(?:if|when|whenever|once|as soon as|the moment|in case|should) (?:it|(?:the|my|our|your|its) (?:\w+ )?\w+)(?: ever| once| again| then)* (?:reads?|shows?|falls?|drops?|goes|go|gets?|sinks?|dips?|comes?|feels?|measures?|sees|is|reports?)(?: ever| anything| back| down| to| a force| values?)* $"
 )
 """'When it reads below': a warning, whatever stands behind it."""
+_PLEASED = re.compile(
+    r"[^.;#\d]{0,25}\b(?:fine|ok(?:ay)?|happy|good|glad|great|perfect|all right|alright|well|safe|pleased|content|ideal|excellent)\b"
+)
+"""'If it is below 1 N, that is fine' warns of nothing."""
 _WISHED = re.compile(
     r"\b(?:prefer|appreciate|like|love|wish|happ\w+|glad|nicer?|great|good|best|better|ideal|grateful|thankful|pleased|safer|safest|kind|lovely|fine|ok|okay|cool|perfect|helpful|wonderful|sure)(?: it| for me| of you)? if\b"
 )
@@ -369,9 +373,10 @@ def relation(left: str, right: str) -> tuple[Kind, int, int]:
             )
             said = _UNCONCERNED.sub(lambda m: " " * len(m.group()), left)
             said = _WISHED.sub(lambda m: " " * len(m.group()), said)
-            denial = list(NOT.finditer(said, clause_start, match.end())) or list(
-                _IF.finditer(said, clause_start, match.end())
-            )
+            denial = list(NOT.finditer(said, clause_start, match.end()))
+            is_wished = pattern is _BELOW and _PLEASED.match(right) is not None
+            if not denial and not is_wished:
+                denial = list(_IF.finditer(said, clause_start, match.end()))
             stated = _HARMED if pattern is _ABOVE else _SLIPPING
             beside = denial if pattern is _ABOVE or len(denial) % 2 == 1 else []
             is_denied = bool(beside) or (
@@ -380,7 +385,7 @@ def relation(left: str, right: str) -> tuple[Kind, int, int]:
             is_denied = is_denied or bool(harm.match(right)) or bool(stated.search(left))
             if pattern is _BELOW:
                 is_lost = (
-                    (_WHEN_BELOW.search(said[: match.start()]) and not beside)
+                    (_WHEN_BELOW.search(said[: match.start()]) and not beside and not is_wished)
                     or _LOST_BELOW.search(left)
                     or _IMPOSSIBLE_BELOW.search(left)
                     or (_STATED_BELOW.search(left) and _NOBODY_HOLDS.match(right))
