@@ -39,6 +39,14 @@ _UNITS = (
     r"(?:in )?(?P<u>mm²?|[µu]m|cm²?|microns?|m?N|k?g|gf|per ?cent|%|gram[- ]?forces?|(?:kilo)?grams?|"
     r"(?:milli)?newtons?|(?:milli|centi|micro)met(?:re|er)s?)"
 )
+_COMPARATIVE = (
+    r"(?:(?:no |not )?(?:more|less|greater|smaller|higher|lower|larger|deeper) than|at least|"
+    r"at most|over|under|above|below|beyond|in excess of|short of)"
+)
+_ANY_UNIT = (
+    r"(?P<u>mm²?|[µu]m|cm²?|microns?|m?N|k?g|kgf|lbf|per ?cent|%|gram[- ]?forces?|(?:kilo)?grams?|"
+    r"(?:milli)?newtons?|(?:milli|centi|micro)met(?:re|er)s?|inch(?:es)?|pounds?(?:-force)?)"
+)
 _NAMES = {
     "force": "force", "grip": "force", "squeeze": "force", "limit": "limit", "ceiling": "limit",
     "depth": "depth", "indentation": "depth", "area": "area", "coverage": "area",
@@ -193,7 +201,19 @@ _SUPPOSED: tuple[tuple[str, _Plain], ...] = (
     (r"^have (?:you|we) left the (?:allowed|permitted|goal|wanted) (?:force )?(?:range|band|window)" + _END, "not (band_low_n <= force_n <= band_high_n)"),
     (r"^compared (?:with|to) the (?:maximum|limit),? (?:would you say )?(?:is )?the force (?:is )?(?P<a>under|below) or (?P<b>over|above)(?: it)?" + _END, r"'\g<a>' if force_n <= limit_n else '\g<b>'"),
     (r"^say ['\"“](?P<a>[\w -]+)['\"”] if the contact is in the middle (?:cell|field|zone),? otherwise (?:say )?['\"“](?P<b>[\w -]+)['\"”]" + _END, r"say '\g<a>' if it is centered, otherwise '\g<b>'"),
+    # A number asked for around its name.
+    (rf"^(?:please )?(?:report|state|give|quote)(?: me)? (?P<q>the [\w' -]+?) in units of {_ANY_UNIT}" + _END, r"what is \g<q> in \g<u>"),
+    (rf"^(?:by how many {_ANY_UNIT} would you put|which number of {_ANY_UNIT.replace('<u>', '<v>')} is) (?P<q>the [\w' -]+?)" + _END, lambda m: f"what is {m['q']} in {m['u'] or m['v']}"),
+    (rf"^what (?P<q>[\w' -]+?) do you (?:measure|feel|sense|read),? in {_ANY_UNIT}" + _END, r"what is the \g<q> in \g<u>"),
+    (rf"^(?:what value does|do you know) (?P<q>the [\w' -]+?)(?: have)?,? in {_ANY_UNIT}" + _END, r"what is \g<q> in \g<u>"),
+    (rf"^what(?:['’]s| is) (?P<q>the [\w' -]+?)\? *(?:please )?(?:answer|reply|say it|tell me)(?: it)? in {_ANY_UNIT}" + _END, r"what is \g<q> in \g<u>"),
+    (r"^[^?]*\b(?:sideways|lateral|horizontal) offset\b[^?]*\b(?:cm|centimet(?:re|er)s?)\b[^?]*", "abs(x_mm), in cm"),
+    (r"^in (?:cm|centimet(?:re|er)s),? what is the (?:sideways|lateral|horizontal) offset[^?]*", "abs(x_mm), in cm"),
     # Statements that somebody makes.
+    (rf"^is (?P<q>the [\w' -]+?) anything but (?P<rest>{_COMPARATIVE}\b[^?]*)", r"is it false that \g<q> is \g<rest>"),
+    (r"^(?:at (?:the|this) moment|right now|just now|at present|presently|as of now|currently),? (?=(?:is|are|does|do|has|have|what|how|which|where)\b)", ""),
+    (rf"^are (?:we|you) (?:sure|certain)(?: that)? (?P<q>the [\w' -]+?) is (?P<rest>{_COMPARATIVE}\b[^?]*)", r"is it true that \g<q> is \g<rest>"),
+    (rf"^do you (?:measure|feel|sense|read|see) (?P<q>the [\w' -]+?) (?:as|to be|at) (?P<rest>{_COMPARATIVE}\b[^?]*)", r"is \g<q> \g<rest>"),
     (r"^is it not so that ", "is it true that "),
     (r"^(?:am i|was i|are we) wrong (?:that|in (?:thinking|saying|believing) that|if i (?:say|think|believe) that) ", "is it false that "),
     (r"^would you (?:disagree|object|contradict me) if i (?:said|claimed|told you|stated) (?:that )?", "is it false that "),

@@ -65,6 +65,13 @@ from tacgrasp.lessons.understanding import understood_by_grammar
             "check not force > #1 N.",
         ),
         ("Say mass. Grams. Over.", "amount mass g."),
+        ("Report the grip force in units of millinewtons.", "amount force mN."),
+        ("What indentation do you measure, in microns?", "amount depth µm."),
+        ("What's the force limit? Answer in N.", "amount limit N."),
+        ("What is the sideways offset in cm?", "calculate abs(x_mm) in cm."),
+        ("At the moment, is the depth over 0.5 mm?", "check depth > #1 mm."),
+        ("Are we sure the grip force is below 1 N?", "check force < #1 N."),
+        ("Is the contact area anything but over 20 %?", "check not area > #1 %."),
         (
             "Is it lighter or heavier than a twenty gram bar of chocolate?",
             "calculate 'lighter' if mass_g < 20 else 'heavier'.",
