@@ -56,7 +56,7 @@ _IS_BELOW = re.compile(r"under|below|less", re.I)
 _COMPARED = {"at least": ">=", "at most": "<=", "more than": ">", "less than": "<"}
 _SIZES = {"half": 0.5, "a third": 1 / 3, "a quarter": 0.25, "twice": 2.0, "double": 2.0}
 _LESS = re.compile(
-    r"lower|less|down|softer|reduc|decreas|drop|cut|let go|eas|loosen|back|relax", re.I
+    r"\b(?:lower|less|down|softer|reduc|decreas|drop|cut|let go|eas|loosen|back|relax)", re.I
 )
 
 
@@ -115,7 +115,7 @@ _SUPPOSED: tuple[tuple[str, _Plain], ...] = (
     (rf"^(?:{_IF} the limit (?:were|was|is|be|been set) {_FORCE} (?P<way>lower|higher|less|more)),? where would it (?:lie|be|stand|come to lie)" + _END, _moved("limit_n", "N")),
     (rf"^(?:{_IF} (?:{_WHOEVER} )?(?P<way>raised|increased|lowered|reduced|decreased|cut|dropped) the limit by {_FORCE}),? how much (?:headroom|room|margin|space) would (?:{_GRIP}|you|we|i) (?:still )?have(?: left)?" + _END,
      lambda m: f"{_moved('limit_n', 'N')(m)} - force_n"),
-    (rf"^(?:{_IF} the limit (?:were|was|is|be|been|been set) {_FORCE} (?P<way>lower|higher|less|more)),? would {_GRIP} (?:break|exceed|be over|be above|violate|breach|pass) it" + _END,
+    (rf"^(?:{_IF} the limit (?:were|was|is|be|been(?: set)?) {_FORCE} (?P<way>lower|higher|less|more)),? would {_GRIP} (?:break|exceed|be over|be above|violate|breach|pass) it" + _END,
      lambda m: f"force_n > {_moved('limit_n', 'N')(m)}"),
     (rf"^(?:{_IF} )?(?:both )?ends of the (?:\w+ )?band (?:were )?(?:shifted|moved|pushed|raised|lowered) (?P<way>up|down|upwards?|downwards?) by {_FORCE},? where would (?:its|the) (?P<end>lower|upper|bottom|top) end (?:come to )?(?:lie|be|stand)" + _END,
      lambda m: _moved("band_low_n" if m["end"].lower() in ("lower", "bottom") else "band_high_n", "N")(m)),
@@ -140,7 +140,7 @@ _SUPPOSED: tuple[tuple[str, _Plain], ...] = (
     (r"^should (?:this|it) go (?:in)?to the (?P<b>\w+) for (?:items|things|fruits?|objects|ones) (?P<one>under|below|over|above) (?P<n>\d+) ?(?:g|grams?) or (?:to |into )?the (?P=b) for (?:items|things|fruits?|objects|ones) (?P<two>under|below|over|above) (?P=n) ?(?:g|grams?)" + _END,
      lambda m: f"'{m['one']}' if mass_g {'<' if m['one'].lower() in ('under', 'below') else '>'} {m['n']} else '{m['two']}'"),
     # Places.
-    (r"^what (?:signed )?(?:sideways|lateral|horizontal) (?:shift|move|correction) in mm,? (?:(?:right|left) being (?:plus|positive|minus|negative),? )?would (?:bring|put|move) the contact(?: cent(?:re|er))? (?:back )?(?:over|to|onto) the (?:pad['’]s )?(?:midline|middle|cent(?:re|er))" + _END, "0 - x_mm"),
+    (r"^what (?:signed )?(?:sideways|lateral|horizontal) (?:shift|move|correction) in mm,? (?:right being (?:plus|positive),? )?would (?:bring|put|move) the contact(?: cent(?:re|er))? (?:back )?(?:over|to|onto) the (?:pad['’]s )?(?:midline|middle|cent(?:re|er))" + _END, "0 - x_mm"),
     (rf"^{_IF} {_THING} (?:slid|slides?|slipped|slips|moved|moves|shifted|shifts|drifted) {_LENGTH} (?:further )?(?:to |toward |towards )?(?:the )?(?P<way>left|right|fingertips?|tip|palm|top|bottom|up|down)[,;:] *(?:what|at which|where|which) (?:would |y |x |will |its )*[^?]*" + _END, _shifted),
     (r"^what(?:['’]s| is) the (?P<w>smaller|lesser|larger|greater|bigger) of the two (?:absolute )?(?:offsets|distances|shifts),? (?:horizontal and vertical|sideways and lengthways|x and y)" + _END, lambda m: f"{'min' if m['w'].lower() in ('smaller', 'lesser') else 'max'}(abs(x_mm), abs(y_mm))"),
     (r"^going first sideways and then (?:straight )?(?:up or down|along the finger) from the (?:pad['’]s )?(?:middle|cent(?:re|er)) to the contact,? how many (?:mm|millimet(?:re|er)s) (?:would|do) (?:i|you|we|one) travel(?: in total)?" + _END, "abs(x_mm) + abs(y_mm)"),
@@ -180,7 +180,8 @@ _SUPPOSED: tuple[tuple[str, _Plain], ...] = (
     (r"^(?:confirm or deny|affirm or deny|yes or no)[:,;] *(?:the )?applied force is (?P<c>[^?]+)" + _END, r"is the force \g<c>"),
     (r"^[^?]*\bits (?:top|upper end) is (?:under|below) the (?:never-?exceed (?:value|limit)|limit)" + _END, "band_high_n < limit_n"),
     (r"^[^.?]*[.?] *i mean,? (?:is )?(?:the )?force (?P<w>under|below|over|above) the (?:never-?exceed(?: value)?|limit)" + _END, lambda m: f"force_n {'<' if m['w'].lower() in ('under', 'below') else '>'} limit_n"),
-    (r"^(?:the )?force is (?P<w>over|above|more|under|below|less)(?: than)? (?:the )?(?:goal|band)(?:['’]s)? (?:maximum|max|top|minimum|min|bottom)\b[^?]*\?[^?]*$", lambda m: "force_n < band_low_n" if m["w"].lower() in ("under", "below", "less") else "force_n > band_high_n"),
+    (r"^(?:the )?force is (?P<w>over|above|more|under|below|less)(?: than)? (?:the )?(?:goal|band)(?:['’]s)? (?:(?P<top>maximum|max|top)|minimum|min|bottom)\b[^?]*\?[^?]*$",
+     lambda m: f"force_n {'<' if _IS_BELOW.match(m['w']) else '>'} band_{'high' if m['top'] else 'low'}_n"),
     (rf"^if (?:i|we|you) add {_FORCE},? (?:will|would) (?:it |we |the force )?(?:still )?be (?:still )?(?:below|under|within) the limit" + _END, lambda m: f"force_n + {_newtons(m)} < limit_n"),
     (r"^is the grip[- ]to[- ]weight ratio (?P<w>above|over|more than|below|under|less than) (?P<n>\d[\d.]*)(?:,? with [^?]*)?" + _END, lambda m: f"force_n {'<' if _IS_BELOW.match(m['w']) else '>'} {m['n']} * 0.00980665 * mass_g"),
     (r"^(?:do we have|is there|have we got) a safety factor of (?P<n>\d[\d.]*) or more (?:against|to|towards) the limit" + _END, r"limit_n >= \g<n> * force_n"),
@@ -207,7 +208,7 @@ _SUPPOSED: tuple[tuple[str, _Plain], ...] = (
     (rf"^what (?P<q>[\w' -]+?) do you (?:measure|feel|sense|read),? in {_ANY_UNIT}" + _END, r"what is the \g<q> in \g<u>"),
     (rf"^(?:what value does|do you know) (?P<q>the [\w' -]+?)(?: have)?,? in {_ANY_UNIT}" + _END, r"what is \g<q> in \g<u>"),
     (rf"^what(?:['’]s| is) (?P<q>the [\w' -]+?)\? *(?:please )?(?:answer|reply|say it|tell me)(?: it)? in {_ANY_UNIT}" + _END, r"what is \g<q> in \g<u>"),
-    (r"^[^?]*\b(?:sideways|lateral|horizontal) offset\b[^?]*\b(?:cm|centimet(?:re|er)s?)\b[^?]*", "abs(x_mm), in cm"),
+    (r"^(?!(?:is|are|does|do|has|would|isn['’]t)\b)(?![^?]*(?:\d| than\b|\bwhether\b|\bif\b))[^?]*\b(?:sideways|lateral|horizontal) offset\b[^?]*\b(?:cm|centimet(?:re|er)s?)\b[^?]*", "abs(x_mm), in cm"),
     (r"^in (?:cm|centimet(?:re|er)s),? what is the (?:sideways|lateral|horizontal) offset[^?]*", "abs(x_mm), in cm"),
     # Statements that somebody makes.
     (rf"^is (?P<q>the [\w' -]+?) anything but (?P<rest>{_COMPARATIVE}\b[^?]*)", r"is it false that \g<q> is \g<rest>"),
