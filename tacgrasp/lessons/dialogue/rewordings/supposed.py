@@ -210,6 +210,7 @@ _SUPPOSED: tuple[tuple[str, _Plain], ...] = (
     (rf"^what(?:['’]s| is) (?P<q>the [\w' -]+?)\? *(?:please )?(?:answer|reply|say it|tell me)(?: it)? in {_ANY_UNIT}" + _END, r"what is \g<q> in \g<u>"),
     (r"^(?!(?:is|are|does|do|has|would|isn['’]t)\b)(?![^?]*(?:\d| than\b|\bwhether\b|\bif\b))[^?]*\b(?:sideways|lateral|horizontal) offset\b[^?]*\b(?:cm|centimet(?:re|er)s?)\b[^?]*", "abs(x_mm), in cm"),
     (r"^in (?:cm|centimet(?:re|er)s),? what is the (?:sideways|lateral|horizontal) offset[^?]*", "abs(x_mm), in cm"),
+    (rf"(?P<h>\b(?:sideways|lateral|horizontal|vertical) offset\b[^?\d]*?\b){_LENGTH.replace('mm|', '', 1).replace('milli|', '', 1)}\b", lambda m: f"{m['h']}{_mm(m)} mm"),
     # Statements that somebody makes.
     (rf"^is (?P<q>the [\w' -]+?) anything but (?P<rest>{_COMPARATIVE}\b[^?]*)", r"is it false that \g<q> is \g<rest>"),
     (r"^(?:at (?:the|this) moment|right now|just now|at present|presently|as of now|currently),? (?=(?:is|are|does|do|has|have|what|how|which|where)\b)", ""),

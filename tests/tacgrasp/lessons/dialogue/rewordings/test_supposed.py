@@ -15,6 +15,8 @@ from tacgrasp.lessons.understanding import understood_by_grammar
             "If somebody increased the limit by 1 N, how much headroom would the grip have?",
             "calculate limit_n + 1 - force_n in N.",
         ),
+        ("Is the sideways offset more than 0.5 cm?", "check offset_x > #1 mm."),
+        ("Is the lateral offset less than 500 µm?", "check offset_x < #1 mm."),
         ("The force is under goal maximum, isn't it?", "calculate force_n < band_high_n."),
         (
             "Assuming somebody raised the limit by a quarter of a newton, how much headroom "
@@ -121,7 +123,6 @@ def test_a_supposition_is_an_expression_of_what_is_felt(question: str, query: st
         "If it slips, what then?",
         "The limit is 1 N. Is it over?",
         "To re-centre it, must the contact shift leftward or rightward?",
-        "Is the sideways offset more than 0.5 cm?",
         "What is the force in newtons?",
     ],
 )
