@@ -154,7 +154,7 @@ _SUPPOSED: tuple[tuple[str, _Plain], ...] = (
     (rf"^{_IF} {_AREA} (?:shrink|shrank|shrinks|shrunk|grow|grew|grows)(?: to)? (?P<n>half|a third|a quarter|twice|double) (?:its|the)(?: present| current)? size,? (?:what|how many) per ?cent(?:age)?(?: of the (?:pad|gel))? would it (?:still )?(?:take up|cover|fill|occupy)(?: of the (?:pad|gel))?" + _END,
      lambda m: f"area_percent * {_SIZES[m['n'].lower()]:.6g}"),
     # Shapes, and whether anything touches.
-    (r"^(?:apart from|besides|other than|except(?: for)?) (?:an? )?(?P<a>\w+) (?:and|or) (?:an? )?(?P<b>\w+),? is it (?:some|an)other (?:shape|form|thing)(?: that)?(?: you feel| you have)?" + _END, r"is it neither a \g<a> nor a \g<b>"),
+    (r"^(?:apart from|besides|other than|except(?: for)?) (?:an? )?(?P<a>\w+) (?:and|or) (?:an? )?(?P<b>\w+),? is it (?:some |an)other (?:shape|form|thing)(?: that)?(?: you feel| you have)?" + _END, r"is it neither a \g<a> nor a \g<b>"),
     (r"^(?:judge|check|assess|evaluate) (?:this|the following) (?:statement|sentence|claim)[:;,] *['\"“](?P<s>[^'\"”]+?)[.!]?['\"”]" + _END, r"is it true that \g<s>"),
     (r"\bridges run across the surface(?: texture)?(?: of (?:the )?\w+)?\b", "the surface is ridged"),
     (r"^(?P<a>full|laden|loaded) or (?P<b>empty),? (?:what(?:['’]s| is) the state of |is |are )?(?:your|the|our) (?:grip|hand|gripper|fingers)" + _END, r"say '\g<a>' if anything touches the pad, otherwise '\g<b>'"),

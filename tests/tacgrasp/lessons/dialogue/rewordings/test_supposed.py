@@ -72,6 +72,10 @@ from tacgrasp.lessons.understanding import understood_by_grammar
             "check not force > #1 N.",
         ),
         ("Say mass. Grams. Over.", "amount mass g."),
+        (
+            "Apart from a sphere and an ellipsoid, is it some other shape that you feel?",
+            "check not shape sphere; check not shape ellipsoid.",
+        ),
         ("Report the grip force in units of millinewtons.", "amount force mN."),
         ("What indentation do you measure, in microns?", "amount depth µm."),
         ("What's the force limit? Answer in N.", "amount limit N."),
