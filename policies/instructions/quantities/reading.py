@@ -136,15 +136,15 @@ def read_quantities(text: str) -> Quantities:
     for pattern, plainly in _SPELLINGS:
         text = pattern.sub(plainly, text)
     left_open = open_force(text)
-    text, unsure, changed = text.replace(WORKED_OUT, "→"), "", ""
+    text, unsure = text.replace(WORKED_OUT, "→"), ""
     is_worked_out = False
     if re.search(r"\d", text):
         from policies.instructions.quantities import calculations
 
         text, before = calculations.worked_out(calculations.with_shares(text)), text
+        is_worked_out = text != before
         unsure = calculations.unsure_change(text)
-        changed = calculations.change_of_range(text)
-        is_worked_out = text != before or changed != ""
+    worked = text
     text, lone = without_lone(with_plain_tolerances(text))
     text = _CHAIN.sub(r"between \1 and \2 \3", text)
     text = with_plain_bounds(text)
@@ -167,8 +167,14 @@ def read_quantities(text: str) -> Quantities:
         denied = denied or denied_factor(before_factor, factor, factor_words)
     if unsure and any(force.kind == "value" for force in forces):
         unread = unread or f"{unsure!r} changes a force that it names; say the one that is meant"
-    if changed and {"least", "most"} <= {force.kind for force in forces}:
-        unread = unread or f"{changed!r} changes a range; say both ends of the one that is meant"
+    if {"least", "most"} <= {force.kind for force in forces}:
+        from policies.instructions.quantities import calculations
+
+        if changed := calculations.change_of_range(worked):
+            is_worked_out = True
+            unread = (
+                unread or f"{changed!r} changes a range; say both ends of the one that is meant"
+            )
     is_alone = factor is None and area is None
     percentage = _PERCENT_OF_NOTHING.search(text) if is_alone else None
     return Quantities(
